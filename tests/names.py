@@ -1,12 +1,14 @@
-"""Check that a type name has one meaning in crates/propagate: two files do not declare a type of the same name, private ones included.
+"""Check that a type name has one meaning in crates/propagate, and that the tuned numbers of the gravity gradient stand in one file.
 
-    python tests/names.py    exit status 1 for such a name, or for a line of ALLOWED that is not needed
+    python tests/names.py              exit status 1 for a type name that two files declare, a float constant elsewhere, or a line of ALLOWED or EXACT that is not needed
+    python tests/names.py --planted    the same check of the constants on an invented file
 
-Types are structs, enums, traits and type aliases outside of tests. The field itself uses some words twice: they stand in ALLOWED with the reason.
+Types are structs, enums, traits and type aliases outside of tests, private ones included. The field itself uses some words twice: they stand in ALLOWED with the reason.
 """
 
 import re
 import sys
+import tempfile
 from collections import defaultdict
 from pathlib import Path
 
@@ -16,6 +18,14 @@ ALLOWED = {
     "Motion": "motion_code/kernel is the text of a printed program; its Motion is that program's",
 }
 
+EXACT = {
+    "CONTRACTED": "largest values of the contractions",
+    "DIFFERENCE": "coefficients of a power series",
+    "SINE": "coefficients of a power series",
+}
+CONSTANTS = "constants.rs"
+
+FLOAT = re.compile(r"^ *(?:pub(?:\([^)]*\))? )?(?:const|static) (\w+): \[*f64", re.MULTILINE)
 DECLARATION = re.compile(r"^(?:[ ]*(?:pub(?:\([^)]*\))? )?(?:struct|enum|trait)|(?:pub(?:\([^)]*\))? )?type) (\w+)", re.MULTILINE)
 
 
@@ -29,8 +39,26 @@ def declared(source: Path) -> dict[str, list[str]]:
     return files
 
 
+def tuned(folder: Path) -> dict[str, str]:
+    """The float constants outside of tests and of the file of constants, each with its file."""
+    files = [file for file in sorted(folder.rglob("*.rs")) if "tests" not in file.relative_to(folder).with_suffix("").parts]
+    return {name: str(file.relative_to(folder)) for file in files if file.name != CONSTANTS for name in FLOAT.findall(text(file))}
+
+
+def planted() -> int:
+    """Check an invented folder with a float constant elsewhere."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name in ("estimate.rs", CONSTANTS):
+            (Path(folder) / name).write_text("pub(crate) const FACTOR: [f64; 2] = [5.0, 1.5];\nconst COUNT: usize = 3;\n", encoding="utf-8")
+        found = tuned(Path(folder))
+    print("names: planted constants are found" if found == {"FACTOR": "estimate.rs"} else f"names: planted constants are not found: {found}")
+    return found != {"FACTOR": "estimate.rs"}
+
+
 def main() -> int:
-    """Print the names with two meanings."""
+    """Print the names with two meanings, and the float constants that are not in their file."""
+    if "--planted" in sys.argv[1:]:
+        return planted()
     twice = {name: files for name, files in sorted(declared(ROOT / "crates/propagate/src").items()) if len(files) > 1}
     unneeded = ALLOWED.keys() - twice.keys()
     left = {name: files for name, files in twice.items() if name not in ALLOWED}
@@ -38,9 +66,15 @@ def main() -> int:
         print(f"names: {name} is declared in {', '.join(files)}")
     for name in sorted(unneeded):
         print(f"names: {name} is declared once; remove it from ALLOWED")
-    if not left:
-        print("names: each type of propagate has a name of its own")
-    return bool(left or unneeded)
+    constants = tuned(ROOT / "crates/propagate/src/gravity_gradient")
+    scattered = {name: file for name, file in constants.items() if name not in EXACT}
+    for name, file in scattered.items():
+        print(f"names: the constant {name} of gravity_gradient/{file} belongs into {CONSTANTS}")
+    for name in sorted(EXACT.keys() - constants.keys()):
+        print(f"names: the constant {name} is gone; remove it from EXACT")
+    if not left and not scattered:
+        print("names: each type of propagate has a name of its own, and the gravity gradient one file of tuned numbers")
+    return bool(left or unneeded or scattered or EXACT.keys() - constants.keys())
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 //! A motion at one level, before its constants are found: the mean motion, the averaged torques, and the error estimate. What the levels share is computed once.
 
+use crate::gravity_gradient::constants::FASTEST_PRECESSION;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::{Error, TorqueMeasure};
@@ -16,10 +17,6 @@ use crate::input::options::Level;
 use crate::input::orbit::Orbit;
 use crate::numerics::C64;
 use crate::torque_free::polhode::Polhode;
-
-/// Largest precession of the angular momentum while the true anomaly advances by 1 rad \[rad\]; if another body has a larger mean motion, while its mean anomaly
-/// advances by 1 rad. At this limit polynomials of degree 15 follow the frame to 1e-10 rad.
-const FASTEST_PRECESSION: f64 = 0.3;
 
 /// What the levels of a motion share.
 pub(crate) struct Outset<'a> {

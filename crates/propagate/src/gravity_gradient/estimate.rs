@@ -10,26 +10,19 @@
 //! The first part and both drifts have one safety factor each, below; the third is an upper estimate. Dropped terms, truncated sums, terms that the level omits, the average over the orbit, and rounding follow.
 //! `gradient safety` of the test crate measures the factors against integrations.
 
+use crate::gravity_gradient::constants::{CONVERGED, DRIFT, EPOCH, ORBIT, PERIODIC};
 use std::f64::consts::TAU;
 
 use crate::error::Error;
 use crate::gravity_gradient::averaged::averages::Averages;
 use crate::gravity_gradient::averaged::spin::MOST_QUARTERS;
 use crate::gravity_gradient::first_order::corrections::Corrections;
-use crate::gravity_gradient::first_order::mean_motion::{CONVERGED, MeanMotion};
+use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
 use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::request::Request;
 use crate::gravity_gradient::terms::term::Sensitivity;
 use crate::input::options::{Averaging, Level};
 
-/// Safety factor of the periodic change of the next order.
-const PERIODIC: f64 = 5.0;
-/// Safety factor of the drift of the next order.
-const DRIFT: f64 = 1.5;
-/// Safety factor of the drift by the errors of the mean M and L at the epoch.
-const EPOCH: f64 = 4.0;
-/// Factor of the average over the orbit. With it the estimate of a motion averaged over the orbit is 20 to 70 times the error in the median.
-const ORBIT: f64 = 0.5;
 /// Number of orbits on each side of the epoch for which quarters are kept.
 pub(crate) const MOST_ORBITS: usize = MOST_QUARTERS / 4 - 2;
 

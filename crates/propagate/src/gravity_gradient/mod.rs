@@ -15,12 +15,13 @@
 //! The degree is 2 everywhere: m = 0, 1, 2 with h + m even, three functions 1, cos 2f, sin 2f of the orbit, and (a/r)³. A further term of this form is added in
 //! `Term::all`. A third degree would need another `contraction`, other powers of a/r and a body without planes of symmetry, whose coefficients are not real.
 //!
-//! Tuned numbers are constants at the top of the file that uses them; the safety factors of the error are in `estimate.rs`.
+//! Tuned numbers stand in `constants.rs`, each with its kind and the command that measures it.
 //!
 //! Imports errors, numerics, simd, input and torque_free.
 
 mod averaged;
 pub(crate) mod body;
+pub(crate) mod constants;
 pub(crate) mod disturbed;
 mod draft;
 mod estimate;

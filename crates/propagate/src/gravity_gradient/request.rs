@@ -1,6 +1,7 @@
 //! What a scene asks of the motion under a torque: its options, the parts of its tolerance, and the averaged variables of its state.
 
 use crate::error::Error;
+use crate::gravity_gradient::constants::{DROPPED, DROPPED_OF_SECOND_ORDER, LARGEST_SEPARATRIX_RATIO, PAIRS};
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
 use crate::torque_free::closed_form::ClosedForm;
@@ -42,9 +43,6 @@ impl Request<'_> {
     }
 }
 
-/// Largest σ/σ_sep for which the tables for the gravity gradient have enough harmonics.
-pub(crate) const LARGEST_SEPARATRIX_RATIO: f64 = 0.9;
-
 /// The variables of a state that can be averaged: σ/σ_sep, and σ, ℓ′, y′ − y.
 pub(crate) fn osculating(polhode: &Polhode) -> Result<(f64, (f64, [f64; 2])), Error> {
     let mode = Mode::of(polhode);
@@ -66,16 +64,6 @@ pub(crate) fn osculating(polhode: &Polhode) -> Result<(f64, (f64, [f64; 2])), Er
     let closed = ClosedForm::new(polhode, &polhode.invariants.theta);
     Ok((ratio, (sigma, [closed.anomaly, -2.0 * closed.series.pair(closed.anomaly)[0].arg()])))
 }
-
-/// Fraction of the tolerance for one dropped term: if the mean M and L are computed without the dropped terms, and if they are computed with all terms. The second
-/// is so small that in scenes of weak torques the error stays near rounding; ten times as much makes a sample 3 % faster. The first is also the fraction for the
-/// truncation error of a sum over time derivatives.
-const DROPPED: [f64; 2] = [0.01, 2e-5];
-/// A term below this share of the second-order change is dropped too, in the same two cases. A few tens of terms may be dropped. With a third of the second share
-/// a sample at n/spin = 0.02 takes 7 % longer.
-const DROPPED_OF_SECOND_ORDER: [f64; 2] = [1e-5, 3e-4];
-/// Fraction of the tolerance for one pair of terms that is not summed around the orbit.
-const PAIRS: f64 = 0.02;
 
 /// The parts of the tolerance \[rad\].
 #[derive(Clone, Copy, Debug)]

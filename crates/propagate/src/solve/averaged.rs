@@ -4,9 +4,10 @@ use std::f64::consts::TAU;
 
 use super::free::{self, Preparation, representable, unused_order};
 use crate::error::{Error, TorqueMeasure};
+use crate::gravity_gradient::constants::LARGEST_SEPARATRIX_RATIO;
 use crate::gravity_gradient::level::chosen;
 use crate::gravity_gradient::request::Request;
-use crate::gravity_gradient::request::{LARGEST_SEPARATRIX_RATIO, osculating};
+use crate::gravity_gradient::request::osculating;
 use crate::input::options::{Level, Method};
 use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;

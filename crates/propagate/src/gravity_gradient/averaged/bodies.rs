@@ -9,6 +9,7 @@
 //! The equations are solved on arcs of time, by polynomials as on the quarters of one orbit. The length of an arc follows from the singularities of the orbits
 //! in the complex plane of time, which are near the pericentre of an eccentric orbit. Arcs are solved when a time first needs them, and are kept.
 
+use crate::gravity_gradient::constants::SHORTEST_ARC;
 use pulp::Arch;
 
 use super::arcs::{Averaged, SolvedArc};
@@ -20,9 +21,6 @@ use crate::gravity_gradient::second_order::k2::{across, dot};
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
-
-/// Shortest arc, over the time from the epoch.
-const SHORTEST_ARC: f64 = 8.0 * f64::EPSILON;
 
 /// A disturbing body: its course, and ⅔Γ in the units of the motion times the user's unit of time in these units.
 #[derive(Clone, Debug)]

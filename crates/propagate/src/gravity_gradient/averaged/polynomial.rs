@@ -1,5 +1,6 @@
 //! Solutions of the averaged equations as polynomials on an interval, by Picard's iteration on Chebyshev points.
 
+use crate::gravity_gradient::constants::SMALLEST_POLYNOMIAL_COEFFICIENT;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
@@ -12,8 +13,6 @@ use crate::simd::lanes::{Lanes, WIDEST};
 pub(crate) const POINTS: usize = WIDEST;
 /// Largest number of Picard iterations. Each one multiplies the error by about κ_o, which `draft::FASTEST_PRECESSION` bounds; 16 is the most seen.
 const MOST_ITERATIONS: usize = 40;
-/// Smaller coefficients are dropped.
-const NEGLIGIBLE: f64 = 1e-17;
 
 /// Frame (quaternion x, y, z, w), and two numbers: the phase integral Ψ twice, or the drifts of ℓ′ and y′.
 pub(crate) type Column = [f64; COLUMNS];
@@ -198,7 +197,7 @@ impl PiecePolynomial {
         let series = dispatch(pulp::Arch::new(), Solve { half, place, start, equations });
         // The last terms are dropped if they are negligible. The magnitudes of the coefficients of the powers of x sum to at most six times the change in the
         // interval (for e = 0.95), so that no digit is lost.
-        let counts = |k: &usize| series.iter().any(|column| column[*k].abs() > NEGLIGIBLE);
+        let counts = |k: &usize| series.iter().any(|column| column[*k].abs() > SMALLEST_POLYNOMIAL_COEFFICIENT);
         let terms = (0..POINTS).rev().find(counts).map_or(1, |last| last + 1);
         let mut coefficients = [[0.0; COLUMNS]; POINTS];
         for (k, chebyshev) in CHEBYSHEV.iter().enumerate().take(terms) {

@@ -4,6 +4,7 @@
 //! to (13) of docs/theory-second-order.md): the averaged equations are then solved on arcs of the precession. The periodic part has the
 //! order of the averaged equations. In second order it is the flow of the Hamiltonian W₁ + W₂ over a unit of time, by one step of the midpoint rule.
 
+use crate::gravity_gradient::constants::SLOWEST_PRECESSION;
 use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -16,9 +17,6 @@ use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
-
-/// Smallest precession in one radian of the mean anomaly from which the length of an arc is computed \[rad\]: it keeps the length finite where ⟨D⟩ vanishes.
-const SLOWEST: f64 = 1e-12;
 
 /// Number of steps to the mean frame at the epoch. Each one multiplies its error by κ_o.
 const EPOCH_STEPS: usize = 4;
@@ -165,7 +163,7 @@ impl MeanFrame {
 
     fn nodding(average: OverOrbit, ellipse: &AveragedOrbit, frame: UnitQuaternion<f64>, unit: f64) -> Self {
         // The angular momentum turns by at most 1 rad in an arc.
-        let length = 1.0 / (average.fastest().max(SLOWEST * ellipse.mean_motion) * unit);
+        let length = 1.0 / (average.fastest().max(SLOWEST_PRECESSION * ellipse.mean_motion) * unit);
         Self::Nodding(Box::new(Arcs::new(PrecessionEquations { average, unit, length }, &frame)))
     }
 

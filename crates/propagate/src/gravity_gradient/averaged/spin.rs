@@ -1,5 +1,6 @@
 //! The average over the rotation alone, under one body on a fixed orbit: solved on quarters or eighths of the orbit.
 
+use crate::gravity_gradient::constants::FASTEST_IN_QUARTERS;
 use std::f64::consts::{PI, TAU};
 use std::sync::{Arc, LazyLock};
 
@@ -16,9 +17,6 @@ use crate::simd::lanes::Lanes;
 
 /// Number of pieces of an orbit, each with a polynomial of its own.
 const FEWEST_PIECES: i64 = 4;
-/// Largest precession of the angular momentum in one radian of the true anomaly for which an orbit has this number of pieces \[rad\]. The polynomials on quarters
-/// then have an error of 1e-14 rad. If the precession is faster, an orbit has twice as many pieces.
-const FASTEST_IN_QUARTERS: f64 = 0.02;
 /// Number of quarters that are kept on each side of the epoch, 0.8 kB each; of eighths twice as many.
 pub(crate) const MOST_QUARTERS: usize = 1 << 18;
 const _: () = assert!(2 * MOST_QUARTERS < MOST);

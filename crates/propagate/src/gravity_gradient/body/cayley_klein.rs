@@ -1,12 +1,10 @@
 //! The harmonics of a and b for a motion near the mean motion, as polynomials in p² and p̄².
 
 use super::inertia::{HIGHEST, Harmonics};
+use crate::gravity_gradient::constants::SMALLEST_HARMONIC;
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
-
-/// Smaller harmonics of a or b have no effect on the attitude \[rad\].
-const NEGLIGIBLE: f64 = 1e-18;
 
 /// The harmonics of a or b that are not negligible, with their slopes, as polynomials in p² and p̄². The first list has h ≥ 0, the second h < 0.
 #[derive(Clone, Debug)]
@@ -19,7 +17,7 @@ impl WobbleSeries {
             let terms = (first..=HIGHEST).step_by(2).map(|h| (h as i32, <[f64; 2]>::from(series.at(sign * h as i32))));
             let mut terms: Vec<_> = terms.collect();
             while let Some((degree, [value, slope])) = terms.last()
-                && root.powi(*degree) * (value.abs() + slope.abs() * root * root) < NEGLIGIBLE
+                && root.powi(*degree) * (value.abs() + slope.abs() * root * root) < SMALLEST_HARMONIC
             {
                 terms.pop();
             }

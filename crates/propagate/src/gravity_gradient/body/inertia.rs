@@ -7,6 +7,7 @@
 //! step is 0.2 % of the distance to the separatrix (sin²J = 1), and at most 40 % of sin²J. A smaller step at small J would amplify rounding. The relative error
 //! is 1e-10.
 
+use crate::gravity_gradient::constants::{DIFFERENCE_STEP, LARGEST_DIFFERENCE_STEP, TANGENT_SQUARE, TAYLOR_REACH};
 use crate::input::options::Level;
 use crate::numerics::C64;
 use crate::torque_free::closed_form::ClosedForm;
@@ -24,14 +25,6 @@ pub(crate) const HIGHEST: usize = 32;
 const COUNT: usize = 2 * HIGHEST + 1;
 /// Whether T33, t1, t2 have the odd harmonics.
 const ODD: [bool; 3] = [false, true, false];
-/// Below this sin²J, functions are extrapolated along their tangent at this value.
-const TANGENT_SQUARE: f64 = 1e-6;
-/// Step of the differences in sin²J, relative to 1 − sin²J.
-const STEP: f64 = 2e-3;
-/// Largest step, over sin²J: two of them leave it positive.
-const LARGEST_STEP: f64 = 0.4;
-/// Largest change of σ, over the distance to the separatrix, that a Taylor polynomial of second order bridges: the third order is 1e-17.
-const TAYLOR_REACH: f64 = 2e-6;
 /// Where σ and the two rates stand behind the harmonics of a member.
 const RATES: [usize; 3] = [5 * COUNT, 5 * COUNT + 1, 5 * COUNT + 2];
 
@@ -86,7 +79,7 @@ impl Inertia {
         let exact = rates(&polhode.tilted(square, momentum)).1;
         let base = square.max(TANGENT_SQUARE);
         // Functions vary over the distance to the separatrix, where sin²J is 1. At small J a step that is a fixed share of sin²J would leave rounding over it.
-        let step = (STEP * (1.0 - base)).min(LARGEST_STEP * base);
+        let step = (DIFFERENCE_STEP * (1.0 - base)).min(LARGEST_DIFFERENCE_STEP * base);
         let members = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| member(polhode, base + k * step, momentum, &exact));
         // A function and its derivatives with respect to sin²J.
         let tangent = |index: usize| {

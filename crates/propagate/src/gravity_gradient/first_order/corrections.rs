@@ -24,6 +24,7 @@ use super::mean_variables::{Mean, PeriodicChange};
 use super::sums::TermSums;
 use crate::error::{Error, TorqueMeasure};
 use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::constants::{LARGEST_SIZE, SMALLEST_COEFFICIENT};
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::elliptic_motion::fixed;
 use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
@@ -34,11 +35,6 @@ use crate::numerics::C64;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
-
-/// Largest sum of the corrections for which first order is accepted.
-const LARGEST_SIZE: f64 = 0.05;
-/// A Fourier coefficient of a time derivative is dropped if its effect on the attitude is below this fraction of that of the largest dropped term.
-const SMALLEST_COEFFICIENT: f64 = 0.004;
 
 /// The generating function of one mean motion.
 #[derive(Clone, Debug)]

@@ -12,6 +12,7 @@
 //! E + iO = Ωτ g i e^(i(jl−δ)) sin δ/δ        E₁ + iO₁ = (Ωτ)² g i e^(i(jl−δ)) [(sin δ/δ − cos δ)/2δ + i sin δ/2δ]
 //! ```
 
+use crate::gravity_gradient::constants::SERIES_BELOW;
 use std::f64::consts::TAU;
 
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
@@ -23,8 +24,6 @@ use crate::simd::sincos::sin_cos_of_turns;
 
 /// E, O, E₁ and O₁.
 pub(super) const PARTS: usize = 4;
-/// Below this |δ| the quotients by δ are power series.
-const SERIES_BELOW: f64 = 0.5;
 /// sin δ/δ in powers of δ², to 1e-17.
 const SINE: [f64; 7] =
     [1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362_880.0, -1.0 / 39_916_800.0, 1.0 / 6_227_020_800.0];

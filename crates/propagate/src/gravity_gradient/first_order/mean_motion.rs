@@ -4,19 +4,14 @@ use super::corrections::Corrections;
 use super::mean_variables::{Mean, PeriodicChange};
 use crate::error::{Error, TorqueMeasure};
 use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::constants::{CONVERGED, LARGEST_CONTRACTION, STRONGEST};
 use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::terms::regime::Terms;
 use crate::input::orbit::Orbit;
 use crate::torque_free::polhode::Polhode;
 
-/// The iteration has converged if the mean variables change by less than this.
-pub(crate) const CONVERGED: f64 = 1e-15;
 /// Largest number of iterations for the mean variables.
 const MOST_STEPS: usize = 24;
-/// Largest mean ratio of the changes of successive iterations. With a larger ratio there is no mean motion.
-const CONTRACTION: f64 = 0.5;
-/// Largest torque over M²/C for which first order in the torque is accepted.
-pub(crate) const STRONGEST: f64 = 0.02;
 
 /// A mean state, its change to the osculating state, and its tables.
 #[derive(Clone)]
@@ -58,13 +53,13 @@ pub(crate) fn first_order(polhode: &Polhode, state: &Mean, orbits: &[EllipticOrb
         if step == MOST_STEPS {
             // Rounding of large corrections may prevent full convergence. A motion without contraction has no mean motion.
             let contraction = (moved / first).powf(1.0 / MOST_STEPS as f64);
-            return if contraction <= CONTRACTION {
+            return if contraction <= LARGEST_CONTRACTION {
                 Ok(MeanMotion { mean, change, inertia, corrections })
             } else {
                 Err(Error::TorqueTooStrong {
                     measure: TorqueMeasure::Contraction,
                     size: contraction,
-                    bound: CONTRACTION,
+                    bound: LARGEST_CONTRACTION,
                 })
             };
         }

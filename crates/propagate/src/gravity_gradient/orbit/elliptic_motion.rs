@@ -3,6 +3,7 @@
 //! The axes are unit vectors in inertial components: to the pericentre, perpendicular to it in the direction of motion, and along the orbital angular momentum.
 //! With secular rates they are R_z(Ω) R_x(i) R_z(ω) with angles that grow linearly with time.
 
+use crate::gravity_gradient::constants::{ARC_SHARE, LONGEST_ARC};
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
@@ -13,12 +14,6 @@ use crate::numerics::phase::Phase;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::{Ellipse, Place};
 use crate::simd::lanes::Lanes;
-
-/// Length of an arc over the distance of its start from the nearest singularity of the orbit, in the complex plane of time. Polynomials of degree 15 then
-/// have an error of 5e-15 of what the torque does in the arc.
-const ARC_SHARE: f64 = 0.4;
-/// Largest angle of the orbit in an arc \[rad\].
-const LONGEST_ARC: f64 = 1.5;
 
 /// η = √(1 − e²), without cancellation near e = 1.
 pub(crate) fn eta(eccentricity: f64) -> f64 {

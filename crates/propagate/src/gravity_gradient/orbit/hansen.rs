@@ -1,17 +1,11 @@
 //! The disturbing body's part of the torque as Fourier series in its mean anomaly l: (a/r)³ times 1, cos 2f and sin 2f (Hansen's coefficients).
 
+use crate::gravity_gradient::constants::{FEWEST_ORBITS, LOG_CUTOFF, MOST_HARMONICS};
 use std::f64::consts::{PI, TAU};
 
 use super::elliptic_motion::eta;
 use super::span::Reach;
 use crate::numerics::C64;
-
-/// Harmonics below e^(−`LOG_CUTOFF`) of the largest are left out.
-const LOG_CUTOFF: f64 = 28.0;
-/// Most harmonics; more are needed from an eccentricity of 0.8 on.
-const MOST_HARMONICS: f64 = 320.0;
-/// Least length of the longer side of a span in orbits: without the pericentre, and with it or on a circle.
-pub(crate) const FEWEST_ORBITS: [f64; 2] = [1.5, 0.3];
 
 /// The coefficients of e^(ijl), from j = 0 on.
 #[derive(Clone, Debug)]

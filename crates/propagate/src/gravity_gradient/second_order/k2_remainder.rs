@@ -11,9 +11,9 @@
 //! file adds (jn)²/(Ω² (Ω + jn)) for terms with sums over time derivatives, and all of G for slow terms. A harmonic whose solution vanishes at the epoch has no part in K2. The derivatives are taken at the epoch. The component of
 //! ∂K2/∂k along the orbit's normal n̂ is kept along n̂; the other component, of the order of e², is constant in inertial axes.
 
+use crate::gravity_gradient::constants::{CUTOFF, NEAREST_IN_K2};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::CUTOFF;
 use crate::gravity_gradient::body::contraction::{Contraction, coefficients, contraction, factors, with_turns};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
@@ -21,9 +21,6 @@ use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::term::Term;
 use crate::numerics::C64;
-
-/// Harmonics of a term without exact divisors are left out if |Ω + jn| is at most this times n: its first-order corrections do not contain them (equation (8)).
-const NEAREST: f64 = 0.5;
 
 /// Constant rates by K2.
 #[derive(Clone, Copy, Debug, Default)]
@@ -97,7 +94,7 @@ impl Remainder {
                         // One divisor for all parts of the harmonic. The error is part of that of the shift.
                         Some(divisors) if divisors.slow => reciprocal(divisors.at(*j, 2 * j.signum())),
                         Some(divisors) if *j != 0 => beyond(omega, step, divisors.at(*j, 2 * j.signum())),
-                        None if *j != 0 && (omega + step).abs() > NEAREST * elliptic.mean_motion => {
+                        None if *j != 0 && (omega + step).abs() > NEAREST_IN_K2 * elliptic.mean_motion => {
                             beyond(omega, step, omega + step)
                         }
                         _ => continue,

@@ -1,6 +1,5 @@
 //! The mean σ and M of second order at the epoch, equation (4) of docs/theory-second-order.md, and the averaged Hamiltonian there.
 
-use super::CUTOFF;
 use super::k2::Hamiltonian;
 use super::k2_remainder::SteadyRates;
 use super::pair_harmonics::{OrbitHarmonics, Parts};
@@ -8,6 +7,7 @@ use super::pair_terms::{PairTerm, Stand};
 use super::pairs::{Actions, OrbitParts, second_actions};
 use crate::error::Error;
 use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::constants::CUTOFF;
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;

@@ -14,7 +14,3 @@ mod pairs;
 mod pairs_around;
 #[cfg(test)]
 mod tests;
-
-/// A pair of terms is dropped if its size is below this times the largest pair; the size of a pair is the product of the sizes of its terms. The first-order changes
-/// of M and L keep every term above the square of this times the largest term.
-pub(crate) const CUTOFF: f64 = 1e-6;

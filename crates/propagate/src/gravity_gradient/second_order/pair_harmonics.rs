@@ -8,6 +8,7 @@
 //! whole.
 
 use crate::gravity_gradient::body::contraction::{Contraction, coefficients, contraction, factors};
+use crate::gravity_gradient::constants::SUMMED_ABOVE;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
@@ -15,9 +16,6 @@ use crate::gravity_gradient::terms::divisors::Divisors;
 use crate::gravity_gradient::terms::term::slow_limit;
 use crate::numerics::C64;
 use crate::simd::kepler::Place;
-
-/// A harmonic with |Ω + jn| above this times |Ω| is contained in the sums over time derivatives, so its divisor has no factor 1 − e^(−Ω_j² span²/4).
-const SUMMED_ABOVE: f64 = 0.5;
 
 /// The factors of f in the functions of the series.
 const TURNS: [i32; 3] = [0, 2, -2];

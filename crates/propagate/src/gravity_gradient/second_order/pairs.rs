@@ -13,10 +13,10 @@
 //! A harmonic of the orbit near resonance is a term of its own, of frequency Ω + jn and of constant amplitude; a pair of two such terms has the divisor of both
 //! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`crate::gravity_gradient::second_order::pairs_around`]).
 
-use super::CUTOFF;
 use super::pair_harmonics::{Near, Split, inverse, unreturned};
 use super::pair_terms::{PairTerm, Stand};
 use super::pairs_around::{PairSum, by_harmonics};
+use crate::gravity_gradient::constants::CUTOFF;
 use crate::gravity_gradient::terms::term::Term;
 
 /// Changes of M and L at the epoch.

@@ -3,9 +3,9 @@
 //! The source R of all pairs with one h and m depends on the place of the disturbing body. With R = Σ_j R_j e^(ijl), its integral is Σ_j R_j e^(ijl)/(i(Ω +
 //! jn)). A harmonic with a small Ω_j has the factor 1 − e^(−Ω_j² span²/4) of [`crate::gravity_gradient::second_order::pair_harmonics`] there.
 
+use crate::gravity_gradient::constants::{CUTOFF, MOST_POINTS, SOURCE_CHANGE, SOURCE_MARGIN};
 use std::f64::consts::{PI, TAU};
 
-use super::CUTOFF;
 use super::pair_harmonics::{Near, Parts, Split, inverse, unreturned};
 use super::pair_terms::{PairTerm, Stand, tensors};
 use crate::gravity_gradient::body::contraction::contraction;
@@ -15,15 +15,6 @@ use crate::gravity_gradient::terms::term::{Term, slow_limit};
 use crate::numerics::C64;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
-
-/// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
-const MOST_POINTS: f64 = 128.0;
-
-/// Relative error of a sum around the orbit: R changes within the span.
-const SOURCE_CHANGE: f64 = 0.02;
-
-/// Safety factor of slow pairs. R is taken at the epoch, and elsewhere on the orbit the directions to the disturbing body may make it larger.
-const SOURCE_MARGIN: f64 = 3.0;
 
 /// R of all pairs with the same h and m.
 #[derive(Clone, Copy)]

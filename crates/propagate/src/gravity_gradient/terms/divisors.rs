@@ -13,12 +13,8 @@
 
 use super::term::Term;
 use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::constants::{MOST_SHIFT, SINGLE_BELOW};
 use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
-
-/// A harmonic with |Ω + jn| below this times n is a separate term in the sum over pairs.
-const SINGLE_BELOW: f64 = 2.5;
-/// A shift of this times n or more is not applied.
-const MOST_SHIFT: f64 = 0.3;
 
 /// The shift of the frequencies by the average torque.
 #[derive(Clone, Copy, Debug, Default)]

@@ -9,10 +9,11 @@
 //! A part that is not corrected turns the attitude by its rate times the time during which it acts in one sense, which is the span or 2/|Ω + jn|. It also
 //! changes σ and M, so that the phases drift. [`Regimes::uncorrected`] is an upper estimate of both. A scene with a large one is [`Error::Resonance`].
 
+use crate::gravity_gradient::constants::{LARGEST_CORRECTED, LARGEST_EFFECT, REFUSAL_FACTOR, SLOW_RATIO};
 use std::f64::consts::{PI, TAU};
 
 use super::divisors::{AverageShift, Divisors, multiple_of, unreturned};
-use super::term::{SLOW_RATIO, Sensitivity, SizedTerm, Term, slow_limit};
+use super::term::{Sensitivity, SizedTerm, Term, slow_limit};
 use crate::error::Error;
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
@@ -22,12 +23,6 @@ use crate::input::options::Level;
 
 /// Harmonics of the orbit, from −3 to 3, with which the frequency of a slow term is compared.
 const SLOW_HARMONICS: i32 = 3;
-/// Largest change of the attitude by a slow term that is corrected \[rad\].
-const LARGEST_CORRECTED: f64 = 0.01;
-/// A scene is refused if one term turns the attitude by more than this without correction \[rad\].
-const LARGEST_EFFECT: f64 = 0.03;
-/// A scene is refused if the terms without correction turn the attitude by more than this multiple of the tolerance or of the error of second order.
-const REFUSAL_FACTOR: f64 = 10.0;
 
 /// How one term is corrected.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 //! A term of the disturbing function: its coefficient and its frequency; the change of the motion by it, and by errors of the mean variables.
 
 use crate::gravity_gradient::body::inertia::{HIGHEST, Inertia};
+use crate::gravity_gradient::constants::SLOW_RATIO;
 use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 
 /// The factors of one mean motion.
@@ -64,9 +65,6 @@ impl Sensitivity {
     }
 }
 
-/// Smallest |Ω| over the largest rate of twice the true anomaly for which the sum over time derivatives is used. Below this ratio the sum does not converge.
-/// Above it the truncation error of the sum is part of the error estimate.
-pub(crate) const SLOW_RATIO: f64 = 1.5;
 /// Largest size of the contraction of r̂r̂ for each m.
 const CONTRACTED: [f64; 3] = [2.0 / 3.0, 0.5, 1.0];
 
