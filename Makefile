@@ -59,6 +59,7 @@ lint-python: $(VENV)/ready
 	$(PYTHON) tests/layers.py
 	$(PYTHON) tests/layers.py --planted
 	$(PYTHON) tests/names.py
+	$(PYTHON) tests/names.py --planted
 	$(PYTHON) tests/release.py
 
 PROGRAMS := andoyer-benches/programs,andoyer-tests/programs
