@@ -1,4 +1,5 @@
-"""Check the imports between the files of each crate. No crate may have an import circle. A module of crates/propagate may import only from earlier layers; lib.rs lists its modules in the order of the layers.
+"""Check the imports between the files of each crate. No crate may have an import circle, and no module may import a name that lib.rs re-exports: it imports from the file. A module of
+crates/propagate may import only from earlier layers; lib.rs lists its modules in the order of the layers.
 
     python tests/layers.py               exit status 1 for a circle or an import from a later layer
     python tests/layers.py --planted     the same check on invented crates that have one of each
@@ -197,10 +198,21 @@ def upwards(source: Path, edges: Imports) -> Iterator[str]:
                 yield f"{name} imports {other}, which is in a later layer"
 
 
+def from_root(crate: Crate) -> Iterator[str]:
+    """Imports of names that lib.rs re-exports."""
+    names = {name for name, _ in crate.modules[""].public} - crate.modules.keys()
+    for here, module in crate.modules.items():
+        if module.file != "lib":
+            paths = (crate.absolute(here, path) for path in crate.uses(here))
+            for name in sorted({whole[0] for whole in paths if whole and whole[0] in names}):
+                yield f"{module.file} imports {name} from the crate's root"
+
+
 def problems(source: Path, layered: bool) -> list[str]:
     """The problems in the imports of a crate."""
-    edges = Crate(source).imports()
-    found = []
+    crate = Crate(source)
+    edges = crate.imports()
+    found = list(from_root(crate))
     for circle in circles(edges):
         arrows = ", ".join(f"{name} -> {' '.join(sorted(edges[name] & set(circle)))}" for name in circle)
         found.append(f"{len(circle)} files in a circle: {arrows}")
@@ -216,7 +228,7 @@ PLANTED = {
     "a circle by a name that lib.rs re-exports": (
         {"lib.rs": "mod a;\nmod b;\npub use b::B;\n", "a.rs": "use crate::{\n    B,\n};\n", "b/mod.rs": "fn f() -> crate::a::A {}\n"},
         False,
-        ["circle: a -> b, b -> a"],
+        ["a imports B from the crate's root", "circle: a -> b, b -> a"],
     ),
     "a circle by two re-exports and a renamed one": (
         {
@@ -297,11 +309,11 @@ def planted() -> list[str]:
 def main() -> int:
     """Check the crates or, with --planted, the check itself."""
     if "--planted" in sys.argv[1:]:
-        found, good = planted(), "imports: planted circles and imports upwards are found"
+        found, good = planted(), "imports: planted circles, imports upwards and from the root are found"
     else:
         crates = sorted(path.parent for path in ROOT.glob("crates/*/src"))
         found = [f"crates/{crate.name}: {problem}" for crate in crates for problem in problems(crate / "src", crate.name in LAYERED)]
-        good = "imports: no circle, none upwards"
+        good = "imports: no circle, none upwards, none from the root of a crate"
     print("\n".join(found) or good)
     return bool(found)
 

@@ -7,9 +7,11 @@
 //! The bracket is computed without derivatives. Two terms with the exponents (j₁, k₁) and (j₂, k₂) of a pair contribute the product of their coefficients times
 //! the integer weight j₁ k₂ − k₁ j₂. Cost: one coefficient product for each pair of terms whose weight is not 0.
 
+use crate::coefficient::Coefficient;
+use crate::error::Error;
 use crate::monomial::{check_slot, unit};
+use crate::polynomial::{Polynomial, Truncation};
 use crate::product::{Accumulator, Rule};
-use crate::{Coefficient, Error, Polynomial, Truncation};
 
 /// A Poisson structure on the variable slots.
 ///

@@ -2,8 +2,11 @@
 //!
 //! The powers of a replacement are computed once and shared by all terms. Sums run in canonical order.
 
+use crate::coefficient::Coefficient;
+use crate::error::Error;
 use crate::monomial::check_slot;
-use crate::{Coefficient, Error, Monomial, Polynomial, SLOTS, Truncation};
+use crate::monomial::{Monomial, SLOTS};
+use crate::polynomial::{Polynomial, Truncation};
 use std::collections::BTreeMap;
 
 impl<C: Coefficient> Polynomial<C> {

@@ -4,7 +4,10 @@
 //! [`Polynomial::parse`] with the same names reads the text back. Exact coefficients are read back unchanged. Floats are printed with their shortest decimal,
 //! and are read back with a rounding error at most.
 
-use crate::{Coefficient, Polynomial, SLOTS, harmonics};
+use crate::coefficient::Coefficient;
+use crate::harmonics;
+use crate::monomial::SLOTS;
+use crate::polynomial::Polynomial;
 use std::fmt::{self, Display, Formatter};
 
 /// A polynomial together with the names of its variables, ready to print.

@@ -4,10 +4,13 @@
 //! Hamiltonian and |j| ≤ s n. Orders add in every bracket of Deprit's triangle, {f_n; T_m} is of order n + m, hence the exponents s n add as well, and products
 //! need no change. In the extended phase space h₀ + Ṁ Λ, and no generator contains Λ. With ż = ρ z, the eigenvalue of S → {h₀ + Ṁ Λ; S} is Σ λᵢ (kᵢ − jᵢ) − ρ j.
 
+use crate::coefficient::Coefficient;
+use crate::error::Error;
 use crate::homological::Homological;
+use crate::monomial::Monomial;
 use crate::monomial::check_slot;
+use crate::polynomial::Polynomial;
 use crate::triangle::{Normalization, Progress, Removal, normalize_by};
-use crate::{Coefficient, Error, Monomial, Polynomial};
 
 /// Driven phases: the slot of z = e^{iM} and ρ in ż = ρ z for each, and the stride s of their exponents.
 #[derive(Debug, Clone, PartialEq)]

@@ -21,7 +21,7 @@ mod python;
 pub(crate) mod routine;
 mod rust;
 
-use crate::Error;
+use crate::error::Error;
 pub use c::C;
 pub use constant::{Constant, Numbers};
 pub use javascript::JavaScript;

@@ -22,7 +22,7 @@ use num_bigint::BigInt;
 use num_integer::{Integer, binomial};
 use num_traits::{One, Zero};
 
-use crate::Error;
+use crate::error::Error;
 use crate::triangle::Progress;
 
 /// A polynomial in β², lowest power first.

@@ -10,7 +10,7 @@
 //! The sums lose little accuracy. A coefficient of order n, times the n-th power of the radius of convergence κσ_sep, is within 5e-17 of the exact one to order
 //! 16 for β from 0 to 15/16 (tests/tests/numeric.rs). The triangle in `f64` subtracts large numbers instead.
 
-use crate::Coefficient;
+use crate::coefficient::Coefficient;
 use andoyer_double::DoubleDouble;
 use std::ops::{Add, Div, Mul, Sub};
 

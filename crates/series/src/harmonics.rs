@@ -4,7 +4,9 @@
 //! cos jM for j ≥ 0 and sin |j|M for j < 0. A polynomial in complex variables is in e^{ijM}. Exponents of such slots do not add in a product:
 //! cosines and sines have the rule of [`product`]. Inside the triangle j + s n is stored instead (`driven`), for which they add.
 
-use crate::{Coefficient, Error, Monomial};
+use crate::coefficient::Coefficient;
+use crate::error::Error;
+use crate::monomial::{MAX_EXPONENT, Monomial};
 
 /// The exponent that stores j.
 pub(crate) fn folded(j: i64) -> u64 {
@@ -22,7 +24,7 @@ pub(crate) fn with(monomial: Monomial, slot: usize, j: i64) -> Result<Monomial, 
     let exponent = folded(j);
     match u32::try_from(exponent) {
         Ok(exponent) => monomial.with(slot, exponent),
-        Err(_) => Err(Error::ExponentOverflow { slot, exponent, bound: crate::MAX_EXPONENT }),
+        Err(_) => Err(Error::ExponentOverflow { slot, exponent, bound: MAX_EXPONENT }),
     }
 }
 

@@ -5,8 +5,11 @@
 //! λ, a resonance counts only if the sum is exactly 0. [`solve`](Homological::solve) returns the S with {h₀; S} = −image that Deprit's triangle needs: K_n =
 //! H̃_n + {h₀; S_n} is the kernel part of H̃_n, or L_h₀(S_n) = {S_n; h₀} = H̃_n − K_n (theory §3, §4). Cost: one division for each term.
 
+use crate::coefficient::Coefficient;
+use crate::error::Error;
+use crate::monomial::Monomial;
 use crate::monomial::check_slot;
-use crate::{Coefficient, Error, Monomial, Polynomial};
+use crate::polynomial::Polynomial;
 
 /// The eigenvalues λᵢ of the unperturbed motion and their slots (qᵢ, pᵢ).
 ///

@@ -12,11 +12,12 @@
 //! order 50 both together take 0.1 s.
 
 use crate::energy::{EnergyNormalization, tell};
+use crate::error::Error;
 use crate::error::TermProblem;
+use crate::normal_form::NormalForm;
 use crate::normal_form::check_order;
 use crate::rigid_body::{self, PublicForm};
 use crate::triangle::{Progress, quiet};
-use crate::{Error, NormalForm};
 use num_complex::Complex;
 use num_rational::BigRational;
 use num_traits::Zero;

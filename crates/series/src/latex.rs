@@ -4,8 +4,11 @@
 //! canonical order. Lines are broken at the text width of the class article at 10 pt, by an estimate of the width of the letters. Displays may break across
 //! pages. A single term longer than a line, which occurs above order 30, has a line of its own. Order 20 fills pages; use JSON to exchange normal forms.
 
+use crate::error::Error;
+use crate::monomial::Monomial;
+use crate::normal_form::NormalForm;
+use crate::polynomial::Polynomial;
 use crate::rigid_body::{PublicForm, Variable};
-use crate::{Error, Monomial, NormalForm, Polynomial};
 use num_complex::Complex;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};

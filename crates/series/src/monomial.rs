@@ -6,7 +6,7 @@
 //! Canonical order: by ascending total degree, and within a degree lexicographic, with the larger exponent of the lower slot first (1, x, y, x², xy, y², …).
 //! Iteration, summation and printing follow this order everywhere in the crate.
 
-use crate::Error;
+use crate::error::Error;
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
 

@@ -7,9 +7,10 @@
 //! An inverse transformation takes a tenth of the time of a direct one. Source: theory §4 and §6; Lara (2017).
 
 use crate::energy::{EnergyNormalization, Generator};
+use crate::error::Error;
+use crate::polynomial::Polynomial;
 use crate::rigid_body::{self, MAX_ORDER, PublicForm, Variable};
 use crate::triangle::{LieTransform, Progress, quiet};
-use crate::{Error, Polynomial};
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;

@@ -16,7 +16,7 @@
 //! The error that this route in `f64` adds to a motion is below the rounding error, at every order. It is the recommended route, and the propagation crate uses
 //! it. Double-double serves for checks, and for users who need the coefficients themselves to more than 13 digits.
 
-use crate::Error;
+use crate::error::Error;
 use crate::forms::{Form, FormNormalization, Real};
 use crate::rigid_body::{BETA, W, W_BAR, hamiltonian};
 

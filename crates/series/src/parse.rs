@@ -17,8 +17,12 @@
 //! Hostile text cannot block the parser or overflow the stack. Nesting, exponents and coefficients are bounded, and every operation on coefficients is charged
 //! by their sizes before it is done. Products are therefore computed term by term with reduced fractions, because a common denominator could become huge.
 
+use crate::coefficient::Coefficient;
+use crate::error::Error;
 use crate::error::ParseProblem;
-use crate::{Coefficient, Error, Monomial, Polynomial, SLOTS, harmonics};
+use crate::harmonics;
+use crate::monomial::{Monomial, SLOTS};
+use crate::polynomial::Polynomial;
 
 const DEEPEST: u32 = 100;
 const LARGEST_EXPONENT: u32 = 1000;

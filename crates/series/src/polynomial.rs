@@ -4,9 +4,11 @@
 //! have the same bits in every run. Products leave their terms sorted, and a term is found by binary search. If terms are added one by one out of order, a hash
 //! index finds them, and iteration sorts them.
 
+use crate::coefficient::Coefficient;
+use crate::error::Error;
+use crate::monomial::{Monomial, SLOTS};
 use crate::monomial::check_slot;
 use crate::terms::Terms;
-use crate::{Coefficient, Error, Monomial};
 use std::hash::{Hash, Hasher};
 
 /// A polynomial with coefficients `C`.
@@ -182,7 +184,7 @@ impl Truncation {
     /// Keeps the terms of total degree `degree` or less.
     #[must_use]
     pub fn total(degree: u32) -> Self {
-        Truncation { slots: (0..crate::SLOTS).collect(), degree }
+        Truncation { slots: (0..SLOTS).collect(), degree }
     }
 
     /// Keeps the terms whose degree in the variables of `slots` together is `degree` or less.

@@ -3,7 +3,8 @@
 //! A Hamiltonian has real coefficients. Its normalization uses the complex numbers of the same kind: Gaussian rationals for rationals, `Complex<f64>` for
 //! `f64`. In an exact field a square root is exact or does not exist.
 
-use crate::{Coefficient, MAX_EXPONENT};
+use crate::coefficient::Coefficient;
+use crate::monomial::MAX_EXPONENT;
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;

@@ -12,10 +12,13 @@
 //! (2017) with the errata of theory §11. Cost: see [`NormalForm`](crate::NormalForm).
 
 use crate::bracket::Poisson;
+use crate::coefficient::Coefficient;
 use crate::energy::Generator;
+use crate::error::Error;
 use crate::error::TermProblem;
 use crate::homological::Homological;
-use crate::{Coefficient, Error, Monomial, Polynomial};
+use crate::monomial::{MAX_EXPONENT, Monomial, SLOTS};
+use crate::polynomial::Polynomial;
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;
@@ -36,7 +39,7 @@ pub const BETA: usize = 3;
 pub const Y_HAT: usize = 4;
 
 /// Largest order whose exponents fit the packed monomials. A product of two parts of orders a + b = N has degree 2N + 4 at most.
-pub const MAX_ORDER: usize = (crate::MAX_EXPONENT as usize - 4) / 2;
+pub const MAX_ORDER: usize = (MAX_EXPONENT as usize - 4) / 2;
 
 /// The coefficients c of a form Σ c u^j U^k β^l, with the exponents (j, k, l) as keys.
 pub type PublicForm = BTreeMap<(u32, u32, u32), Complex<BigRational>>;
@@ -213,7 +216,7 @@ pub(crate) fn turned_complex(c: &Complex<BigRational>, n: usize) -> Complex<BigR
 
 /// The variable of the rational pair whose transformation gives that of `variable`.
 pub(crate) fn seed(variable: Variable) -> Polynomial<BigRational> {
-    let mut exponents = [0; crate::SLOTS];
+    let mut exponents = [0; SLOTS];
     exponents[if variable == Variable::Angle { Y_HAT } else { W_BAR }] = 1;
     Polynomial::from_terms([(Monomial::small(exponents), BigRational::one())])
 }

@@ -3,9 +3,11 @@
 //! Sums are operators: `&a + &b`, `&a - &b`, `-&a`, `+=`, `-=`. Products are methods, because a product can overflow an exponent, which is an error. A sum
 //! costs O(n). A product costs one multiplication for each pair of terms and one reduction for each resulting term.
 
+use crate::coefficient::Coefficient;
+use crate::error::Error;
+use crate::polynomial::{Polynomial, Truncation};
 use crate::product::Accumulator;
 use crate::terms::Terms;
-use crate::{Coefficient, Error, Polynomial, Truncation};
 use std::ops::{Add, AddAssign, Neg, Sub, SubAssign};
 
 impl<C: Coefficient> AddAssign<&Polynomial<C>> for Polynomial<C> {

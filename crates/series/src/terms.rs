@@ -3,8 +3,9 @@
 //! The packed monomials and the coefficients are two arrays. Products, sums and constructors leave them in canonical order. If terms are added one by one out
 //! of order, a hash index is built to find them. Exact coefficients of a product stay [`Words`] until they are read.
 
+use crate::coefficient::Coefficient;
+use crate::monomial::Monomial;
 use crate::words::Words;
-use crate::{Coefficient, Monomial};
 use rustc_hash::FxBuildHasher;
 use std::collections::HashMap;
 use std::sync::OnceLock;

@@ -12,9 +12,11 @@
 //! T_{m+1}}, G_0 = f, and costs N(N+1)/2 brackets.
 
 use crate::bracket::Poisson;
+use crate::coefficient::Coefficient;
+use crate::error::Error;
 use crate::homological::Homological;
+use crate::polynomial::Polynomial;
 use crate::product::{Accumulator, Pause};
-use crate::{Coefficient, Error, Polynomial};
 use std::ops::ControlFlow;
 
 /// A progress callback. Its arguments are the number of orders done and the number of orders requested. It stops the computation by returning `Break`.

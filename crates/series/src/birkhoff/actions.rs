@@ -5,8 +5,10 @@
 
 use super::BirkhoffNormalForm;
 use super::mode::{Mode, substitute};
+use crate::error::Error;
+use crate::monomial::Monomial;
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
-use crate::{Error, Monomial, Polynomial};
 use std::collections::BTreeMap;
 
 /// Largest integer under a square root that is searched.

@@ -11,9 +11,12 @@ use super::mode::Mode;
 use crate::emit::Language;
 use crate::emit::program::{Expression, Function, Program, call, name};
 use crate::emit::routine::{Argument, Results, Routine};
+use crate::error::Error;
+use crate::harmonics;
+use crate::monomial::{Monomial, SLOTS};
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
 use crate::triangle::quiet;
-use crate::{Error, Monomial, Polynomial, SLOTS, harmonics};
 use std::collections::{BTreeMap, BTreeSet};
 
 impl<R: RealField> BirkhoffNormalForm<R> {

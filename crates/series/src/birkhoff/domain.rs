@@ -12,8 +12,10 @@
 
 use super::BirkhoffNormalForm;
 use super::mode::{Mode, modulus};
+use crate::error::Error;
+use crate::monomial::Monomial;
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
-use crate::{Error, Monomial, Polynomial};
 
 /// The sizes of the orders of a normal form.
 #[derive(Debug, Clone, PartialEq)]

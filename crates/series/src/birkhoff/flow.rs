@@ -2,8 +2,9 @@
 
 use super::mode::Mode;
 use super::{BirkhoffNormalForm, PhaseSpace};
+use crate::error::Error;
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
-use crate::{Error, Polynomial};
 use num_complex::Complex;
 use std::collections::BTreeMap;
 

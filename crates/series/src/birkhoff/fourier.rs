@@ -8,7 +8,9 @@ use super::flow::actions;
 use super::map::check;
 use super::matrix::dot;
 use super::mode::Mode;
-use crate::{Error, Monomial, SLOTS, harmonics};
+use crate::error::Error;
+use crate::harmonics;
+use crate::monomial::{Monomial, SLOTS};
 use num_complex::Complex;
 use std::collections::BTreeMap;
 

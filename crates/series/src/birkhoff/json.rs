@@ -26,10 +26,13 @@ use super::phases::Phases;
 use super::resonances::Spectrum;
 use super::verify::verified;
 use super::{BirkhoffNormalForm, PhaseSpace, Resonances, check_driven, prepared};
+use crate::coefficient::Coefficient;
+use crate::error::Error;
 use crate::error::TermProblem;
+use crate::monomial::Monomial;
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
 use crate::triangle::{LieTransform, Normalization, Progress, quiet};
-use crate::{Coefficient, Error, Monomial, Polynomial};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

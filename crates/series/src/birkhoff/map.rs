@@ -9,9 +9,11 @@ use super::flow::{self, Flow};
 use super::matrix::{Matrix, dot, symplectic_inverse};
 use super::mode::Mode;
 use super::{BirkhoffNormalForm, PhaseSpace};
+use crate::error::Error;
+use crate::monomial::{Monomial, SLOTS};
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
 use crate::triangle::{Progress, quiet};
-use crate::{Error, Monomial, Polynomial, SLOTS};
 use num_complex::Complex;
 
 /// A normal form ready for numerical evaluation: the transformation of states, and the motion in the normal form.

@@ -1,7 +1,7 @@
 //! Small matrices over a field, and the symplectic form in the order q₁, p₁, q₂, p₂, …
 
 use super::mode::modulus;
-use crate::Coefficient;
+use crate::coefficient::Coefficient;
 use crate::real_field::RealField;
 use num_traits::{One, Zero};
 

@@ -42,10 +42,13 @@ pub use mode::Mode;
 pub use phase_space::PhaseSpace;
 pub use resonances::Resonances;
 
+use crate::coefficient::Coefficient;
+use crate::error::Error;
+use crate::monomial::Monomial;
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
 use crate::triangle::{LieTransform, Normalization, Progress, quiet};
 use crate::triangle::{Removal, normalize_by};
-use crate::{Coefficient, Error, Monomial, Polynomial};
 use diagonal::Diagonal;
 use mode::modulus;
 use phases::{Phases, Prepared};

@@ -12,8 +12,11 @@
 //! An elliptic mode has q = √(2rI) sin φ, p = √(2I/r) cos φ, dφ/dt = ω. A hyperbolic mode has q ~ e^{λt}, p ~ e^{−λt}, so q is the unstable direction. The real
 //! scales r avoid square roots, so everything is rational if the frequencies are.
 
+use crate::coefficient::Coefficient;
+use crate::error::Error;
+use crate::monomial::Monomial;
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
-use crate::{Coefficient, Error, Monomial, Polynomial};
 
 /// One mode of the quadratic part.
 ///

@@ -6,9 +6,13 @@
 //! real polynomials, e^{ijM} in complex ones. The same slots hold the complex variables (u, U) of a normal form, which are printed as `u_q`, `U_q` for the pair (q, p).
 
 use crate::bracket::Poisson;
+use crate::coefficient::Coefficient;
 use crate::display::Harmonics;
+use crate::error::Error;
+use crate::harmonics;
+use crate::monomial::{Monomial, SLOTS};
 use crate::parse::check_names;
-use crate::{Coefficient, Error, Monomial, Polynomial, SLOTS, harmonics};
+use crate::polynomial::Polynomial;
 use std::ops::Range;
 
 /// The named variables of a Hamiltonian.

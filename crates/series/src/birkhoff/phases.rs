@@ -11,9 +11,13 @@
 use super::mode::{modulus, substitute};
 use super::phase_space::PhaseSpace;
 use super::resonances::{Spectrum, is_small};
+use crate::coefficient::Coefficient;
 use crate::driven::Driven;
+use crate::error::Error;
+use crate::harmonics;
+use crate::monomial::{MAX_EXPONENT, Monomial};
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
-use crate::{Coefficient, Error, MAX_EXPONENT, Monomial, Polynomial, harmonics};
 
 /// The driven phases, and the parts of the Hamiltonian as the triangle takes them.
 pub(super) type Prepared<R> = (Phases<R>, Vec<Polynomial<<R as RealField>::Complex>>);

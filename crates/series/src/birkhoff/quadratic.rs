@@ -12,8 +12,10 @@ use super::diagonal::Diagonal;
 use super::matrix::{Matrix, product, symplectic_inverse, transposed, unit};
 use super::mode::Mode;
 use super::williamson;
+use crate::error::Error;
+use crate::monomial::{Monomial, SLOTS};
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
-use crate::{Error, Monomial, Polynomial};
 
 impl<R: RealField> Diagonal<R> {
     /// The modes of the quadratic part of `hamiltonian`, after a check of all terms.
@@ -90,7 +92,7 @@ fn forms<R: RealField>(matrix: &Matrix<R>) -> Result<Option<Vec<Polynomial<R>>>,
 /// Refuses a Hamiltonian whose quadratic part does not have numbers as coefficients: NaN, variables of another space, linear terms, parameters of degree 0.
 fn check<R: RealField>(hamiltonian: &Polynomial<R>, space: &PhaseSpace) -> Result<(), Error> {
     for (monomial, c) in hamiltonian.terms() {
-        let unknown = (space.driven_slots().end..crate::SLOTS).find(|&slot| monomial.exponent(slot) > 0);
+        let unknown = (space.driven_slots().end..SLOTS).find(|&slot| monomial.exponent(slot) > 0);
         if let Some(slot) = unknown {
             return Err(Error::ValueMissing { slot, given: space.driven_slots().end });
         }

@@ -10,8 +10,10 @@
 //! counts as a term. Euclid's algorithm on an echelon basis decides exactly whether k is a combination of the vectors.
 
 use super::mode::{Mode, modulus};
+use crate::coefficient::Coefficient;
+use crate::error::Error;
+use crate::monomial::MAX_EXPONENT;
 use crate::real_field::RealField;
-use crate::{Coefficient, Error, MAX_EXPONENT};
 use num_traits::Zero;
 
 /// The default of the smallest divisor, relative to the largest frequency.

@@ -2,7 +2,10 @@
 //! as coefficients.
 
 use super::PhaseSpace;
-use crate::{Coefficient, Error, Monomial, Polynomial};
+use crate::coefficient::Coefficient;
+use crate::error::Error;
+use crate::monomial::Monomial;
+use crate::polynomial::Polynomial;
 
 impl PhaseSpace {
     /// Returns H with numbers in place of some parameters, and the space without these parameters.

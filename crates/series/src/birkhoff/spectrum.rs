@@ -5,7 +5,7 @@
 
 use super::matrix::{Matrix, null_space};
 use super::mode::modulus;
-use crate::Error;
+use crate::error::Error;
 use crate::real_field::RealField;
 
 /// Tolerance relative to the largest entry of A. Smaller eigenvalues count as 0, and eigenvalues nearer than this to an axis lie on the axis. It is about the

@@ -5,9 +5,12 @@
 
 use super::{AnglePart, BirkhoffNormalForm, PhaseSpace};
 use crate::display::Harmonics;
+use crate::error::Error;
+use crate::harmonics;
 use crate::latex::Part;
+use crate::monomial::{Monomial, SLOTS};
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
-use crate::{Error, Monomial, Polynomial, SLOTS, harmonics};
 use std::collections::BTreeMap;
 
 /// Number of digits of the largest coefficient of a degree.

@@ -2,9 +2,10 @@
 
 use super::BirkhoffNormalForm;
 use super::variables::{changed, to_complex, to_real};
+use crate::error::Error;
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
 use crate::triangle::{Progress, quiet};
-use crate::{Error, Polynomial};
 
 impl<R: RealField> BirkhoffNormalForm<R> {
     /// Expresses a function f of the old variables in the new ones, complete to degree d + N, where d is the lowest positive degree of f.

@@ -3,8 +3,9 @@
 use super::mode::{Mode, complex_in_real, real_in_complex, substitute};
 use super::phase_space::PhaseSpace;
 use super::phases::{cosines, exponentials};
+use crate::error::Error;
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
-use crate::{Error, Polynomial};
 
 /// A real function, expressed in the complex variables and in exponentials of the driven phases.
 pub(super) fn to_complex<R: RealField>(

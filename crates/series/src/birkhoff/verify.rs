@@ -4,9 +4,11 @@
 
 use super::quadratic::literal;
 use super::{BirkhoffNormalForm, normalize_driven};
+use crate::error::Error;
+use crate::monomial::Monomial;
+use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
 use crate::triangle::Progress;
-use crate::{Error, Monomial, Polynomial};
 
 /// Largest error of a float, relative to the largest coefficient of its order. Another machine may round differently.
 const FLOAT_TOLERANCE: f64 = 1e-8;

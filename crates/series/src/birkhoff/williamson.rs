@@ -8,8 +8,9 @@ use super::diagonal::Diagonal;
 use super::matrix::{Matrix, dot, form_entry, pairing, product, transposed, turned, turned_rows};
 use super::mode::{Mode, modulus};
 use super::spectrum::{Eigenspace, Names, ROOT, eigenspace, shown, spectrum};
+use crate::coefficient::Coefficient;
+use crate::error::Error;
 use crate::real_field::RealField;
-use crate::{Coefficient, Error};
 use num_traits::{One, Zero};
 
 /// Largest rounding error of the entries of Mᵀ A M off its diagonal form, relative to A.

@@ -3,7 +3,7 @@
 //! There are three kinds: lifted values of any coefficient (floats, or big integers for rationals), integers of 64 bits that are summed in 128, and Gaussian
 //! integers in the same way. The caller ensures that the sums of the last two kinds fit.
 
-use crate::Coefficient;
+use crate::coefficient::Coefficient;
 
 /// Factors, sums of their products, and the values of these sums.
 pub(super) trait Arithmetic: Sync {

@@ -6,7 +6,8 @@
 //! degree is the one that the truncation bounds, so the dropped terms are those with the largest codes.
 
 use crate::monomial::shift;
-use crate::{Monomial, SLOTS, Truncation};
+use crate::monomial::{Monomial, SLOTS};
+use crate::polynomial::Truncation;
 use std::fmt::Debug;
 
 /// A code: `i64` if the codes of the result fit, otherwise `i128`, which always fits (7 · 15 bits of exponents, 18 bits of degree).

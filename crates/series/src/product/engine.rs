@@ -13,7 +13,7 @@ use super::code::{Key, Layout};
 use super::pause::{PRODUCTS_PER_PAUSE, Pause};
 use super::piece::{Collection, Piece};
 use super::store::{Array, Store, Table};
-use crate::Error;
+use crate::error::Error;
 use crate::threads::shared;
 use rayon::prelude::*;
 

@@ -14,10 +14,13 @@ mod piece;
 mod rule;
 mod store;
 
+use crate::coefficient::Coefficient;
+use crate::error::Error;
 use crate::monomial::Monomial;
+use crate::monomial::{MAX_EXPONENT, SLOTS};
+use crate::polynomial::{Polynomial, Truncation};
 use crate::terms::Terms;
 use crate::words::{FactorList, Factors, Numerators, Words};
-use crate::{Coefficient, Error, MAX_EXPONENT, Polynomial, SLOTS, Truncation};
 use arithmetic::{Arithmetic, GaussianIntegers, Integers, Lifted};
 use code::{Key, Layout};
 use engine::{CELLS_PER_PRODUCT, Part, Sum};

@@ -3,7 +3,9 @@
 use super::code::{Key, Layout};
 use super::engine::{Operand, Part, Weights};
 use super::rule::{Product, Weight};
-use crate::{Coefficient, Monomial, Polynomial};
+use crate::coefficient::Coefficient;
+use crate::monomial::Monomial;
+use crate::polynomial::Polynomial;
 
 /// One factor: its operand, and its monomials in the same order.
 struct Factor<K, F> {

@@ -1,6 +1,6 @@
 //! Interruptions of long sums.
 
-use crate::Error;
+use crate::error::Error;
 
 /// Number of products between two calls of `pause`. With large rationals they take some tens of milliseconds.
 pub(super) const PRODUCTS_PER_PAUSE: usize = 1 << 14;

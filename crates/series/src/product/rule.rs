@@ -1,6 +1,6 @@
 //! The weight of a product in a sum.
 
-use crate::Monomial;
+use crate::monomial::Monomial;
 
 /// One product of the sum: the positions of its factors, and its weight.
 #[derive(Debug, Clone, Copy)]

@@ -8,8 +8,10 @@
 //!
 //! At a given β the coefficients come from [`NumericNormalForm`] in double-double, otherwise from the exact polynomials in β². Each number is rounded once.
 
+use crate::error::Error;
+use crate::normal_form::NormalForm;
+use crate::numeric::NumericNormalForm;
 use crate::rigid_body::{Variable, turned_complex as turned};
-use crate::{Error, NormalForm, NumericNormalForm};
 use andoyer_double::DoubleDouble;
 use num_bigint::BigInt;
 use num_rational::BigRational;

@@ -13,8 +13,9 @@ mod computation;
 use crate::emit::Language;
 use crate::emit::program::Cost;
 use crate::emit::routine::{Argument, Results, Routine};
+use crate::error::Error;
+use crate::normal_form::NormalForm;
 use crate::rigid_body::separatrix_action;
-use crate::{Error, NormalForm};
 use coefficients::Coefficients;
 
 /// Largest order that [`NormalForm::to_code`] accepts. With a number for β it takes half a second and 0.7 MB; with β as an argument it takes much more.
