@@ -45,6 +45,14 @@ argument_of_pericentre = 0.6
 mass_fraction = 0.7
 ";
 
+#[test]
+fn node_and_pericentre_have_the_rates_of_their_keys() {
+    let text = format!("{GOOD}{ORBIT}node_rate = 1e-8\npericentre_rate = -2e-8\n");
+    let scene = Scene::parse_toml(&text, "scene.toml").expect("a scene");
+    assert_eq!(scene.asked_orbit().expect("an orbit").rates(), [1e-8, -2e-8]);
+    assert_eq!(Scene::parse_toml(&scene.to_toml(), "again.toml").expect("a scene"), scene);
+}
+
 /// The scene with an orbit, and with every key.
 fn with_orbit() -> String {
     format!("averaging = \"orbit\"\nlevel = \"moving\"\n{GOOD}{ORBIT}")

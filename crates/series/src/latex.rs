@@ -201,3 +201,19 @@ fn coefficient(c: &Complex<BigRational>) -> (bool, String) {
         (false, format!("\\bigl({}{} {join} {imaginary}\\bigr)", signs[0], fraction(&c.re)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_coefficient_has_its_sign_and_both_of_its_parts() {
+        let rational = |numerator: i64, denominator: i64| BigRational::new(numerator.into(), denominator.into());
+        let written = |re, im| coefficient(&Complex::new(re, im));
+        assert_eq!(written(rational(-1, 2), rational(0, 1)), (true, "\\frac{1}{2}".to_owned()));
+        assert_eq!(written(rational(0, 1), rational(-1, 1)), (true, "\\mathrm{i}\\,".to_owned()));
+        let both = |sign: &str, join: &str| format!("\\bigl({sign}\\frac{{1}}{{2}} {join} 3\\mathrm{{i}}\\bigr)");
+        assert_eq!(written(rational(1, 2), rational(3, 1)), (false, both("", "+")));
+        assert_eq!(written(rational(-1, 2), rational(-3, 1)), (false, both("-", "-")));
+    }
+}
