@@ -6,8 +6,8 @@
 
 use crate::coefficient::Coefficient;
 use crate::error::Error;
-use crate::monomial::{Monomial, SLOTS};
 use crate::monomial::check_slot;
+use crate::monomial::{Monomial, SLOTS};
 use crate::terms::Terms;
 use std::hash::{Hash, Hasher};
 
