@@ -1,7 +1,7 @@
 """Samples and motions as files, and back: CSV, NPZ, Parquet, the attitude ephemeris message of the CCSDS, the C-kernel of SPICE.
 
 The first argument of every writer is the path. A file is written whole or not at all; an existing file is replaced unless ``force=False``.
-`write_csv`, `write_npz`, `write_parquet` and `write_aem` take `Samples`. `write_ck` takes a `Motion`, because it chooses its times itself.
+`write_csv`, `write_npz`, `write_parquet` and `write_aem` take `Samples`. `write_ck` takes `Samples` or a `Motion`, and `write_pck` a `Motion`, whose times they choose themselves.
 `read_table` and `read_aem` return samples.
 """
 
