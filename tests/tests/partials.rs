@@ -264,7 +264,7 @@ fn derivatives_under_a_gravity_gradient_predict_a_neighbouring_motion() {
     }
 }
 
-/// Before, such derivatives were wrong by 9e-4 of the largest. The reference is an integration in 60 digits, differentiated by differences.
+/// The reference is an integration in 60 digits, differentiated by differences.
 #[test]
 fn derivatives_after_a_turnover_from_the_middle_axis_keep_their_digits() {
     let body = Body::new([0.5015501476127431, 0.8048640411418888, 1.0]).expect("a body");
