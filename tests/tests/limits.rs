@@ -1,6 +1,6 @@
 //! Where the formulas are weakest: inputs that were once wrong, each with what broke.
 
-use andoyer_propagate::{Body, Error, Method, Mode, Motion, Scene, State};
+use andoyer_propagate::{Body, Error, Method, Mode, Motion, Orbit, Scene, State};
 use andoyer_tests::{attitude_error, difference};
 
 const LEVEL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
@@ -267,5 +267,22 @@ fn rates_as_large_as_doubles_go_give_numbers_or_an_error_next_to_the_separatrix(
             let mut numbers = sample.attitude.coords.iter().chain(&sample.angular_velocity);
             assert!(numbers.all(|number| number.is_finite()), "{rate:e} at {time:e}: {sample:?}");
         }
+    }
+}
+
+#[test]
+fn a_torque_in_a_unit_of_time_of_which_the_square_is_no_double_is_the_same() {
+    // 2^-600 of the usual rates: n² is 0 in doubles.
+    let at = |unit: f64, time: f64| {
+        let body = Body::new([0.6, 0.8, 1.0]).expect("a body");
+        let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0].map(|rate| rate * unit)).expect("a state");
+        let orbit = Orbit::new(0.02 * unit, 0.1).and_then(|orbit| orbit.mass_fraction(0.5)).expect("an orbit");
+        let scene = Scene::new(body, state).orbit(orbit).span(0.0, 300.0 / unit).method(Method::Closed);
+        scene.solve().expect("solved").at(time / unit).expect("in the span").attitude
+    };
+    let small = 2.0_f64.powi(-600);
+    for time in [10.0, 300.0] {
+        let angle = at(1.0, time).angle_to(&at(small, time));
+        assert!(angle <= 1e-14, "{angle:e}");
     }
 }

@@ -3,7 +3,7 @@
 //! - *Fitted* to errors that were measured: `gradient safety` and `gradient climb` of the test crate print error over estimate, `make gravity` records it.
 //! - *Shares* of the tolerance or of the largest part, which trade time for accuracy: `make rivals-gradient` prints the time of a sample and of a set-up.
 //! - *Limits* of a formula: beyond them it does not converge, or another one is more accurate. `gradient bounds` and `gradient table` print what is served and its error.
-//! - *Rounding*: below them a double has no digit, or a quotient loses digits. The unit tests of the file hold them.
+//! - *Rounding*: below them a double has no digit, or a quotient loses digits. The unit tests of the files that use them hold them.
 
 // Fitted.
 
@@ -41,7 +41,7 @@ pub(crate) const CUTOFF: f64 = 1e-6;
 
 /// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
 pub(crate) const MOST_POINTS: f64 = 128.0;
-/// Most harmonics; more are needed from an eccentricity of 0.8 on.
+/// Most harmonics of the orbit's Fourier series; more are needed from an eccentricity of 0.8 on.
 pub(crate) const MOST_HARMONICS: f64 = 320.0;
 /// Least length of the longer side of a span in orbits: without the pericentre, and with it or on a circle.
 pub(crate) const FEWEST_ORBITS: [f64; 2] = [1.5, 0.3];
@@ -49,8 +49,8 @@ pub(crate) const FEWEST_ORBITS: [f64; 2] = [1.5, 0.3];
 pub(crate) const LARGEST_CONTRACTION: f64 = 0.5;
 /// Largest torque over M²/C for which first order in the torque is accepted.
 pub(crate) const STRONGEST: f64 = 0.02;
-/// Largest precession of the angular momentum in one radian of the true anomaly for which an orbit has this number of pieces \[rad\]. The polynomials on quarters
-/// then have an error of 1e-14 rad. If the precession is faster, an orbit has twice as many pieces.
+/// Largest precession of the angular momentum in one radian of the true anomaly for which the averaged equations are solved on quarters of an orbit \[rad\]. The polynomials
+/// then have an error of 1e-14 rad. If the precession is faster, they are solved on eighths.
 pub(crate) const FASTEST_IN_QUARTERS: f64 = 0.02;
 /// Length of an arc over the distance of its start from the nearest singularity of the orbit, in the complex plane of time. Polynomials of degree 15 then
 /// have an error of 5e-15 of what the torque does in the arc.
@@ -66,7 +66,7 @@ pub(crate) const NEAREST_IN_K2: f64 = 0.5;
 pub(crate) const SUMMED_ABOVE: f64 = 0.5;
 /// A harmonic with |Ω + jn| below this times n is a separate term in the sum over pairs.
 pub(crate) const SINGLE_BELOW: f64 = 2.5;
-/// A shift of this times n or more is not applied.
+/// A shift of a divisor by the average torque of this times n or more is not applied.
 pub(crate) const MOST_SHIFT: f64 = 0.3;
 /// Largest change of the attitude by a slow term that is corrected \[rad\].
 pub(crate) const LARGEST_CORRECTED: f64 = 0.01;
@@ -84,7 +84,7 @@ pub(crate) const LARGEST_SEPARATRIX_RATIO: f64 = 0.9;
 
 // Rounding.
 
-/// Smaller coefficients are dropped.
+/// Smaller coefficients of the polynomials of the averaged motion are dropped.
 pub(crate) const SMALLEST_POLYNOMIAL_COEFFICIENT: f64 = 1e-17;
 /// Smallest precession in one radian of the mean anomaly from which the length of an arc is computed \[rad\]: it keeps the length finite where ⟨D⟩ vanishes.
 pub(crate) const SLOWEST_PRECESSION: f64 = 1e-12;

@@ -15,7 +15,7 @@
 //! The degree is 2 everywhere: m = 0, 1, 2 with h + m even, three functions 1, cos 2f, sin 2f of the orbit, and (a/r)³. A further term of this form is added in
 //! `Term::all`. A third degree would need another `contraction`, other powers of a/r and a body without planes of symmetry, whose coefficients are not real.
 //!
-//! Tuned numbers stand in `constants.rs`, each with its kind and the command that measures it.
+//! Tuned floats stand in `constants.rs` under their kind, with the command that measures it; tuned whole numbers stand in the file that uses them.
 //!
 //! Imports errors, numerics, simd, input and torque_free.
 

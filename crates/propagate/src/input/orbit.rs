@@ -247,6 +247,11 @@ impl Orbit {
         1.5 * self.strength()
     }
 
+    /// Γ in the unit of time in which the mean motion is `mean_motion`: its square may be 0 or infinite in the user's unit.
+    pub(crate) fn torque_strength_for(&self, mean_motion: f64) -> f64 {
+        1.5 * mean_motion * mean_motion * self.disturbing_fraction()
+    }
+
     /// The elements: mean motion n, eccentricity, time of pericentre, inclination, node, argument of pericentre, mass fraction.
     pub fn elements(&self) -> [f64; 7] {
         [

@@ -28,7 +28,7 @@ pub(crate) struct Averages {
     /// Δ over M.
     delta: f64,
     /// −½ (dΔ/dσ)/M, without the mass fraction. ⟨D⟩ = −½ (dΨ/dt) Δ with the phase integral Ψ, so the derivatives of ⟨D⟩ with respect to L, and to M at
-    /// fixed L, are this times dΨ/dt and times −σ dΨ/dt.
+    /// fixed L, are the product of this with dΨ/dt, and with −σ dΨ/dt.
     pub(crate) slope: f64,
 }
 

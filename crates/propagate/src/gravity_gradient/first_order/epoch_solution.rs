@@ -1,15 +1,16 @@
 //! The solution Ξ of dΞ/dt + iΩΞ = Θ that vanishes at the epoch, for one harmonic of the orbit next to resonance: equation (9) of docs/theory-second-order.md.
 //!
-//! For the part g e^(ijl) of Θ, with the divisor Ω_j and the time τ after the epoch,
+//! For the part g_j e^(ijl) of Θ, with the divisor Ω_j and the time τ after the epoch,
 //!
 //! ```text
-//! Ξ = g e^(ijl) (1 − e^(−iΩ_jτ))/(iΩ_j)        ∂Ξ/∂Ω = g e^(ijl) [τ e^(−iΩ_jτ)/Ω_j − (1 − e^(−iΩ_jτ))/(iΩ_j²)]
+//! Ξ = g_j e^(ijl) (1 − e^(−iΩ_jτ))/(iΩ_j)        ∂Ξ/∂Ω = g_j e^(ijl) [τ e^(−iΩ_jτ)/Ω_j − (1 − e^(−iΩ_jτ))/(iΩ_j²)]
 //! ```
 //!
-//! Neither has a pole at Ω_j = 0. The mean variables contain nothing of this harmonic. With δ = Ω_jτ/2, G = (E + iO)/(iΩ) and Ω² ∂G/∂Ω = −(E₁ + iO₁)/i,
+//! Neither has a pole at Ω_j = 0. The mean variables contain nothing of this harmonic. With δ = Ω_jτ/2, the sums E + iO = iΩ Ξ and
+//! E₁ + iO₁ = −iΩ² ∂Ξ/∂Ω of `fourier.rs` are
 //!
 //! ```text
-//! E + iO = Ωτ g i e^(i(jl−δ)) sin δ/δ        E₁ + iO₁ = (Ωτ)² g i e^(i(jl−δ)) [(sin δ/δ − cos δ)/2δ + i sin δ/2δ]
+//! E + iO = Ωτ g_j i e^(i(jl−δ)) sin δ/δ        E₁ + iO₁ = (Ωτ)² g_j i e^(i(jl−δ)) [(sin δ/δ − cos δ)/(2δ) + i sin δ/(2δ)]
 //! ```
 
 use crate::gravity_gradient::constants::SERIES_BELOW;
@@ -24,10 +25,10 @@ use crate::simd::sincos::sin_cos_of_turns;
 
 /// E, O, E₁ and O₁.
 pub(super) const PARTS: usize = 4;
-/// sin δ/δ in powers of δ², to 1e-17.
+/// sin δ/δ in powers of δ², to 5e-17 below [`SERIES_BELOW`].
 const SINE: [f64; 7] =
     [1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362_880.0, -1.0 / 39_916_800.0, 1.0 / 6_227_020_800.0];
-/// (sin δ/δ − cos δ)/2δ², to 1e-17.
+/// (sin δ/δ − cos δ)/(2δ²), to 1e-17.
 const DIFFERENCE: [f64; 7] = [
     1.0 / 6.0,
     -1.0 / 60.0,

@@ -81,7 +81,7 @@ impl<'a> EllipticOrbit<'a> {
 
     /// The strength of the torque Γ.
     pub(crate) fn strength(&self) -> f64 {
-        self.orbit.torque_strength() / (self.unit() * self.unit())
+        self.orbit.torque_strength_for(self.mean_motion)
     }
 
     /// Largest change of the frequencies of the torque by the rates of node and pericentre.

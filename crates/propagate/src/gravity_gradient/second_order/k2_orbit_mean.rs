@@ -111,7 +111,7 @@ impl OverOrbit {
         let (z, conjugate, half) = (ComplexLanes { re: p, im: -q }, ComplexLanes { re: p, im: q }, all(0.5));
         let scaled = |c: ComplexLanes<S>, by: Lanes<S>| ComplexLanes { re: c.re * by, im: c.im * by };
         let rho = p.mul_add(p, q * q);
-        // The gradient of Re ϰ²b in the plane is 2zb, the P-component its real part and the Q-component its imaginary part.
+        // The gradient of Re ϰ²b in the plane is 2ϰb, the P-component its real part and the Q-component its imaginary part.
         let [zb2, zd2, zb] = [z * b2, z * d2, z * b];
         let zb4 = z * z * z * b4;
         let real = |c: ComplexLanes<S>| z.plus_re_of_product(c, all(0.0));

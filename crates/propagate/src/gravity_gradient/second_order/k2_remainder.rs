@@ -119,7 +119,7 @@ impl Remainder {
         let across = frame * Vector3::new(second, -first, 0.0);
         let pole = frame * Vector3::z();
         let inclined = pole.cross(normal).norm_squared();
-        // ∂K2/∂k across k: the part along N − (k·N) k is that of ∂K2/∂k_N.
+        // ∂K2/∂k across k: the part along n̂ − (k·n̂) k is that of ∂K2/∂k_N.
         let share = if inclined > f64::EPSILON { across.dot(normal) / inclined } else { 0.0 };
         let force = across + pole * (pole.dot(normal) * share);
         SteadyRates { force, phases: [by_action, self.by_momentum - inertia.sigma * by_action] }
@@ -177,7 +177,7 @@ fn closed_form(omega: f64, step: f64) -> [f64; 3] {
     [value * (1.0 - ratio), slope * (1.0 - 2.0 * ratio), curvature * (1.0 - 3.0 * ratio)]
 }
 
-/// (jn)²/(Ω² x) and its derivatives with respect to Ω, for a harmonic of frequency jn and its divisor x.
+/// (jn)²/(Ω² Ω_j) and its derivatives with respect to Ω, for a harmonic of frequency jn and its divisor Ω_j.
 fn beyond(omega: f64, step: f64, divisor: f64) -> [f64; 3] {
     let value = (step / omega).powi(2) / divisor;
     let slope = -2.0 / omega - 1.0 / divisor;

@@ -169,10 +169,10 @@ impl<'a> Regimes<'a> {
         size * (self.shift(term) * duration.min(1.0 / distance) + size * (distance * duration).min(1.0)).min(1.0)
     }
 
-    /// The error of the solution that vanishes at the epoch: it lacks the shift ξ, and is linear in the turn that it makes.
+    /// The error of the solution that vanishes at the epoch. Its phase lacks the shift ξ over the whole span, and it is linear in the turn that it makes.
     fn epoch_solution_error(&self, term: &SizedTerm, nearest: Nearest) -> f64 {
         let turned = self.turned(term, nearest);
-        turned * (self.shift(term) * self.orbit.duration.min(2.0 / nearest.distance) + turned).min(1.0)
+        turned * (self.shift(term) * self.orbit.duration + turned).min(1.0)
     }
 
     /// Upper estimate of the shift of a divisor: by the average torque over a part of the orbit, and of second order.
