@@ -19,9 +19,9 @@ ALLOWED = {
 }
 
 EXACT = {
-    "CONTRACTED": "largest values of the contractions",
-    "DIFFERENCE": "coefficients of a power series",
-    "SINE": "coefficients of a power series",
+    "terms/term.rs: CONTRACTED": "largest values of the contractions",
+    "first_order/epoch_solution.rs: DIFFERENCE": "coefficients of a power series",
+    "first_order/epoch_solution.rs: SINE": "coefficients of a power series",
 }
 CONSTANTS = "constants.rs"
 
@@ -39,10 +39,10 @@ def declared(source: Path) -> dict[str, list[str]]:
     return files
 
 
-def tuned(folder: Path) -> dict[str, str]:
-    """The float constants outside of tests and of the file of constants, each with its file."""
+def tuned(folder: Path) -> set[str]:
+    """The float constants outside of tests and of the file of constants, each after its file."""
     files = [file for file in sorted(folder.rglob("*.rs")) if "tests" not in file.relative_to(folder).with_suffix("").parts]
-    return {name: str(file.relative_to(folder)) for file in files if file.name != CONSTANTS for name in FLOAT.findall(text(file))}
+    return {f"{file.relative_to(folder).as_posix()}: {name}" for file in files if file.name != CONSTANTS for name in FLOAT.findall(text(file))}
 
 
 def planted() -> int:
@@ -51,8 +51,8 @@ def planted() -> int:
         for name in ("estimate.rs", CONSTANTS):
             (Path(folder) / name).write_text("pub(crate) const FACTOR: [f64; 2] = [5.0, 1.5];\nconst COUNT: usize = 3;\n", encoding="utf-8")
         found = tuned(Path(folder))
-    print("names: planted constants are found" if found == {"FACTOR": "estimate.rs"} else f"names: planted constants are not found: {found}")
-    return found != {"FACTOR": "estimate.rs"}
+    print("names: planted constants are found" if found == {"estimate.rs: FACTOR"} else f"names: planted constants are not found: {found}")
+    return found != {"estimate.rs: FACTOR"}
 
 
 def main() -> int:
@@ -67,14 +67,14 @@ def main() -> int:
     for name in sorted(unneeded):
         print(f"names: {name} is declared once; remove it from ALLOWED")
     constants = tuned(ROOT / "crates/propagate/src/gravity_gradient")
-    scattered = {name: file for name, file in constants.items() if name not in EXACT}
-    for name, file in scattered.items():
-        print(f"names: the constant {name} of gravity_gradient/{file} belongs into {CONSTANTS}")
-    for name in sorted(EXACT.keys() - constants.keys()):
+    scattered, gone = constants - EXACT.keys(), EXACT.keys() - constants
+    for name in sorted(scattered):
+        print(f"names: the constant gravity_gradient/{name} belongs into {CONSTANTS}")
+    for name in sorted(gone):
         print(f"names: the constant {name} is gone; remove it from EXACT")
     if not left and not scattered:
         print("names: each type of propagate has a name of its own, and the gravity gradient one file of tuned numbers")
-    return bool(left or unneeded or scattered or EXACT.keys() - constants.keys())
+    return bool(left or unneeded or scattered or gone)
 
 
 if __name__ == "__main__":

@@ -78,7 +78,7 @@ pub enum Family {
     LooseTolerance,
     /// A part of one orbit, averaged over the orbit in second order.
     WithinAnOrbit,
-    /// A harmonic of the orbit whose frequency x, with that of a term, is 1e-4 to 2 over the span.
+    /// A harmonic j of the orbit and a term for which |Ω + jn| times the span is 1e-4 to 2.
     NearResonance,
 }
 
@@ -285,7 +285,7 @@ impl Family {
     }
 }
 
-/// The scene with the mean motion n for which Ω + jn of a term is x, with |x| times the span from 1e-4 to 2: `part` chooses h, m, j and x.
+/// The scene with another mean motion n, for which |Ω + jn| of a term times the span is 1e-4 to 2: `part` chooses the term, j and Ω + jn.
 fn next_to_resonance(scene: Disturbed, part: &[f64]) -> Disturbed {
     let [n, eccentricity, pericentre, inclination, node, argument] = scene.orbit;
     let Ok(motion) = scene.free().and_then(|scene| scene.solve()) else { return scene };

@@ -138,7 +138,7 @@ fn second_order_improves_next_to_a_resonance_or_its_estimate_says_so() {
         });
         let estimate = motion.plan().error_bound() + truth.plan().error_bound();
         let report = format!("{}: error {error:e}, estimate {estimate:e}, {scene:?}", scene.family);
-        // Nearly a sphere: slow pairs of terms are not in K2, and the estimate says so.
+        // In the nearly spherical scene second order is no better than first, and the estimate says so.
         let improves = scene.family != "sphere";
         let before = scene.error_first_order.min(scene.error_second_order);
         if error > estimate || (improves && error > 0.02 * before) {

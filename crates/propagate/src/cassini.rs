@@ -1,14 +1,14 @@
 //! Cassini states: the axis of a body that keeps its place relative to a precessing orbit (Colombo 1966, Peale 1969). The equations are derived here from
 //! theory §9.
 //!
-//! The body rotates about its axis of greatest inertia. Its pole k precesses about the normal N of the orbit, and N goes about inertial axis 3, ẑ, with the
-//! rate Ω_n of the node at the inclination i. θ is the angle from N to a pole in the plane of ẑ and N, counted away from ẑ.
+//! The body rotates about its axis of greatest inertia. Its pole k precesses about the normal n̂ of the orbit, and n̂ goes about inertial axis 3, ẑ, with the
+//! rate Ω_n of the node at the inclination i. θ is the angle from n̂ to a pole in the plane of ẑ and n̂, counted away from ẑ.
 //!
-//! A body that rotates fast and out of resonance precesses with −α_p (k·N), where α_p = (3/2) (G m/a³) η^(−3) (C − (A+B)/2)/(C s) with the spin rate s (theory
+//! A body that rotates fast and out of resonance precesses with −α_p (k·n̂), where α_p = (3/2) (G m/a³) η^(−3) (C − (A+B)/2)/(C s) with the spin rate s (theory
 //! §9). In the frame that turns with the node
 //!
 //! ```text
-//! dk/dt = −α_p (k·N) N × k − Ω_n ẑ × k,        h = −½ α_p cos²θ − Ω_n cos(i + θ),        dh/dθ = α_p cos θ sin θ + Ω_n sin(i + θ) = 0
+//! dk/dt = −α_p (k·n̂) n̂ × k − Ω_n ẑ × k,        h = −½ α_p cos²θ − Ω_n cos(i + θ),        dh/dθ = α_p cos θ sin θ + Ω_n sin(i + θ) = 0
 //! ```
 //!
 //! There are four states if |Ω_n/α_p| is below (sin^(2/3) i + cos^(2/3) i)^(−3/2), else two. A state is stable where h has an extremum on the sphere.

@@ -91,7 +91,7 @@ def defined(comment):
         found = re.search(letter, piece)
         if found:
             formula = re.split(r" (?=[a-z`\[]{2})|[,;:]|\.(?: |$)", found[2])[0]
-            if formula and not re.match(r"[−±]?[\d.π/]+(?: \(|$)|[ABC]\b|`|Σ|Re |Q\b|g_j e\^|g e\^", formula):
+            if formula and not re.match(r"[−±]?[\d.π/]+(?: \(|$)|[ABC]$|`|Σ|Re |Q\b|g_j e\^|g e\^", formula):
                 yield found[1], formula
 
 

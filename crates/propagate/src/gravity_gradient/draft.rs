@@ -1,11 +1,11 @@
 //! A motion at one level, before its constants are found: the mean motion, the averaged torques, and the error estimate. What the levels share is computed once.
 
-use crate::gravity_gradient::constants::FASTEST_PRECESSION;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::{Error, TorqueMeasure};
 use crate::gravity_gradient::averaged::averaged_orbit::AveragedOrbit;
 use crate::gravity_gradient::averaged::averages::Averages;
+use crate::gravity_gradient::constants::FASTEST_PRECESSION;
 use crate::gravity_gradient::estimate::{by_orbit, errors};
 use crate::gravity_gradient::first_order::mean_motion::{MeanMotion, first_order, weak_enough};
 use crate::gravity_gradient::first_order::mean_variables::Mean;

@@ -10,12 +10,12 @@
 //! The first part and both drifts have one safety factor each, below; the third is an upper estimate. Dropped terms, truncated sums, terms that the level omits, the average over the orbit, and rounding follow.
 //! `gradient safety` of the test crate measures the factors against integrations.
 
-use crate::gravity_gradient::constants::{CONVERGED, DRIFT, EPOCH, ORBIT, PERIODIC};
 use std::f64::consts::TAU;
 
 use crate::error::Error;
 use crate::gravity_gradient::averaged::averages::Averages;
 use crate::gravity_gradient::averaged::spin::MOST_QUARTERS;
+use crate::gravity_gradient::constants::{CONVERGED, DRIFT, EPOCH, ORBIT, PERIODIC};
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
 use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;

@@ -9,13 +9,13 @@
 //! The equations are solved on arcs of time, by polynomials as on the quarters of one orbit. The length of an arc follows from the singularities of the orbits
 //! in the complex plane of time, which are near the pericentre of an eccentric orbit. Arcs are solved when a time first needs them, and are kept.
 
-use crate::gravity_gradient::constants::SHORTEST_ARC;
 use pulp::Arch;
 
 use super::arcs::{Averaged, SolvedArc};
 use super::polynomial::{
     AtPoints, AveragedEquations, COLUMNS, Column, NODES, POINTS, PiecePolynomial, column_slopes, pole,
 };
+use crate::gravity_gradient::constants::SHORTEST_ARC;
 use crate::gravity_gradient::orbit::elliptic_motion::Course;
 use crate::gravity_gradient::second_order::k2::{across, dot};
 use crate::simd::complex_quaternion::QuaternionLanes;

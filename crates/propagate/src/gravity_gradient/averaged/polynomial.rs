@@ -1,9 +1,9 @@
 //! Solutions of the averaged equations as polynomials on an interval, by Picard's iteration on Chebyshev points.
 
-use crate::gravity_gradient::constants::SMALLEST_POLYNOMIAL_COEFFICIENT;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
+use crate::gravity_gradient::constants::SMALLEST_POLYNOMIAL_COEFFICIENT;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::{Lanes, WIDEST};

@@ -4,13 +4,13 @@
 //! to (13) of docs/theory-second-order.md): the averaged equations are then solved on arcs of the precession. The periodic part has the
 //! order of the averaged equations. In second order it is the flow of the Hamiltonian W₁ + W₂ over a unit of time, by one step of the midpoint rule.
 
-use crate::gravity_gradient::constants::SLOWEST_PRECESSION;
 use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::arcs::{Arcs, Averaged, SolvedArc};
 use super::averaged_orbit::AveragedOrbit;
 use super::polynomial::{AveragedEquations, COLUMNS, Column, PiecePolynomial, column_slopes, pole};
+use crate::gravity_gradient::constants::SLOWEST_PRECESSION;
 use crate::gravity_gradient::second_order::k2_orbit_mean::OverOrbit;
 use crate::numerics::phase::Phase;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};

@@ -1,6 +1,5 @@
 //! The average over the rotation alone, under one body on a fixed orbit: solved on quarters or eighths of the orbit.
 
-use crate::gravity_gradient::constants::FASTEST_IN_QUARTERS;
 use std::f64::consts::{PI, TAU};
 use std::sync::{Arc, LazyLock};
 
@@ -9,6 +8,7 @@ use nalgebra::UnitQuaternion;
 use super::arcs::{Chain, MOST};
 use super::averaged_orbit::AveragedOrbit;
 use super::polynomial::{AtPoints, AveragedEquations, COLUMNS, Column, NODES, PiecePolynomial, column_slopes, pole};
+use crate::gravity_gradient::constants::FASTEST_IN_QUARTERS;
 use crate::gravity_gradient::orbit::elliptic_motion::When;
 use crate::gravity_gradient::second_order::k2::{DisturberLanes, across, dot};
 use crate::simd::complex_quaternion::QuaternionLanes;

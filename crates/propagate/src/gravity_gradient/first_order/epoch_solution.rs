@@ -13,9 +13,9 @@
 //! E + iO = Ωτ g_j i e^(i(jl−δ)) sin δ/δ        E₁ + iO₁ = (Ωτ)² g_j i e^(i(jl−δ)) [(sin δ/δ − cos δ)/(2δ) + i sin δ/(2δ)]
 //! ```
 
-use crate::gravity_gradient::constants::SERIES_BELOW;
 use std::f64::consts::TAU;
 
+use crate::gravity_gradient::constants::SERIES_BELOW;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::divisors::Divisors;
 use crate::simd::complex_quaternion::ComplexLanes;
@@ -46,7 +46,7 @@ pub(crate) struct EpochSolution {
     number: i32,
     /// Ω and half the divisor, in the user's unit.
     rates: [f64; 2],
-    /// g for (a/r)³ times 1, cos 2f and sin 2f; the last one without its factor −i or i.
+    /// g_j for (a/r)³ times 1, cos 2f and sin 2f; the last one without its factor −i or i.
     coefficients: [f64; 3],
 }
 
@@ -67,13 +67,13 @@ impl EpochSolution {
     ) {
         let all = |value: f64| elapsed.all(value);
         let [omega, half] = self.rates;
-        let z = elapsed * all(half);
-        let (sine, cosine) = sin_cos_of_turns(z * all(1.0 / TAU));
-        let square = z * z;
-        let divisor = z.magnitude().up_to(SERIES_BELOW, all(1.0), z);
-        let quotient = z.magnitude().up_to(SERIES_BELOW, square.polynomial(&SINE), sine / divisor);
+        let delta = elapsed * all(half);
+        let (sine, cosine) = sin_cos_of_turns(delta * all(1.0 / TAU));
+        let square = delta * delta;
+        let divisor = delta.magnitude().up_to(SERIES_BELOW, all(1.0), delta);
+        let quotient = delta.magnitude().up_to(SERIES_BELOW, square.polynomial(&SINE), sine / divisor);
         let far = (quotient - cosine) / (divisor + divisor);
-        let difference = z.magnitude().up_to(SERIES_BELOW, z * square.polynomial(&DIFFERENCE), far);
+        let difference = delta.magnitude().up_to(SERIES_BELOW, delta * square.polynomial(&DIFFERENCE), far);
         let mut wave = ComplexLanes { re: all(1.0), im: all(0.0) };
         for _ in 0..self.number.unsigned_abs() {
             wave = wave * anomaly;

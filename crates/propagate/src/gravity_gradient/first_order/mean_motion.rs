@@ -73,7 +73,7 @@ pub(crate) fn first_order(polhode: &Polhode, state: &Mean, orbits: &[EllipticOrb
 pub(crate) fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f64 {
     let [first, _, third] = polhode.moments;
     let product = first.max(third) * (first - third).abs();
-    1.5 * rate * rate * product * orbit.disturbing_fraction() / (1.0 - orbit.eccentricity()).powi(3)
+    orbit.torque_strength_for(rate) * product / (1.0 - orbit.eccentricity()).powi(3)
 }
 
 /// Checks that the torques are weak enough for first order.

@@ -1,14 +1,14 @@
 //! The motion of a disturbing body along its orbit: the place on the ellipse, and the axes of an ellipse whose node and pericentre precess.
 //!
 //! The axes are unit vectors in inertial components: to the pericentre, perpendicular to it in the direction of motion, and along the orbital angular momentum.
-//! With secular rates they are R_z(Ω) R_x(i) R_z(ω) with angles that grow linearly with time.
+//! With secular rates they are R_z(node) R_x(inclination) R_z(argument of the pericentre) with angles that grow linearly with time.
 
-use crate::gravity_gradient::constants::{ARC_SHARE, LONGEST_ARC};
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
 use pulp::NullaryFnOnce;
 
+use crate::gravity_gradient::constants::{ARC_SHARE, LONGEST_ARC};
 use crate::input::orbit::Orbit;
 use crate::numerics::phase::Phase;
 use crate::simd::instruction_set::InstructionSet;

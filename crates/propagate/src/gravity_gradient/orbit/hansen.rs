@@ -1,10 +1,10 @@
 //! The disturbing body's part of the torque as Fourier series in its mean anomaly l: (a/r)³ times 1, cos 2f and sin 2f (Hansen's coefficients).
 
-use crate::gravity_gradient::constants::{FEWEST_ORBITS, LOG_CUTOFF, MOST_HARMONICS};
 use std::f64::consts::{PI, TAU};
 
 use super::elliptic_motion::eta;
 use super::span::Reach;
+use crate::gravity_gradient::constants::{FEWEST_ORBITS, LOG_CUTOFF, MOST_HARMONICS};
 use crate::numerics::C64;
 
 /// The coefficients of e^(ijl), from j = 0 on.

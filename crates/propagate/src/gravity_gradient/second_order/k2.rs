@@ -24,7 +24,7 @@ type K2Factors = [f64; 5];
 /// ⟨D⟩ + K2 at one mean σ and M, as a function of the angular momentum's direction and of the disturbing body's place.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Hamiltonian {
-    /// C of ⟨D⟩ = C (a/r)³ (k_r² − ⅓), and its derivatives with respect to L and to M at fixed L.
+    /// ΓΔ of ⟨D⟩ = ΓΔ (a/r)³ (k_r² − ⅓), and its derivatives with respect to L and to M at fixed L.
     pub(crate) first: [f64; 3],
     /// The coefficients of K2, and their derivatives with respect to L and to M at fixed L.
     pub(crate) second: [K2Factors; 3],
@@ -102,7 +102,7 @@ impl Hamiltonian {
         Self { second, ..Self::first(inertia, strength) }
     }
 
-    /// C²/Mn, and its derivatives with respect to L and to M at fixed L; `mean_motion` is n.
+    /// (ΓΔ)²/(Mn), and its derivatives with respect to L and to M at fixed L; `mean_motion` is n.
     pub(crate) fn squares(&self, mean_motion: f64) -> [f64; 3] {
         let [c, by_action, by_momentum] = self.first;
         let square = c / (self.momentum * mean_motion);

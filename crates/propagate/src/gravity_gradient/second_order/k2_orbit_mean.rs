@@ -4,10 +4,10 @@
 //! k_r = Re ϰ e^(if), and each part of ⟨D⟩ + K2 is a function of f and of k:
 //!
 //! ```text
-//! g k_r² = ½ (ρ b₀ + Re ϰ² b₂)          g k_r⁴ = ⅜ρ² b₀ + ½ρ Re ϰ² b₂ + ⅛ Re ϰ⁴ b₄          b_m = g e^(imf)
+//! υ k_r² = ½ (ρ b₀ + Re ϰ² b₂)          υ k_r⁴ = ⅜ρ² b₀ + ½ρ Re ϰ² b₂ + ⅛ Re ϰ⁴ b₄          b_m = υ e^(imf)
 //! ```
 //!
-//! where g is (a/r)⁶ or (a/r)⁶ ḟ. The second order of ⟨D⟩ is C²/(Mn) k_N (ρ A + Re ϰ² B). K̄ has the means of these functions over f in the time f/n, and W₂ has
+//! where υ is (a/r)⁶ or (a/r)⁶ ḟ. The second order of ⟨D⟩ is (ΓΔ)²/(Mn) k_N (ρ A + Re ϰ² B). K̄ has the means of these functions over f in the time f/n, and W₂ has
 //! their primitives. For e = 0 the means of b₂, b₄ and B are 0, and k precesses steadily about the normal. For e ≠ 0 it nods with twice the angle of the node.
 
 use super::k2::{Hamiltonian, across, dot, in_lanes};

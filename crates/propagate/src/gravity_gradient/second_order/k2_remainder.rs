@@ -11,11 +11,11 @@
 //! file adds (jn)²/(Ω² (Ω + jn)) for terms with sums over time derivatives, and all of G for slow terms. A harmonic whose solution vanishes at the epoch has no part in K2. The derivatives are taken at the epoch. The component of
 //! ∂K2/∂k along the orbit's normal n̂ is kept along n̂; the other component, of the order of e², is constant in inertial axes.
 
-use crate::gravity_gradient::constants::{CUTOFF, NEAREST_IN_K2};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::gravity_gradient::body::contraction::{Contraction, coefficients, contraction, factors, with_turns};
 use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::constants::{CUTOFF, NEAREST_IN_K2};
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;

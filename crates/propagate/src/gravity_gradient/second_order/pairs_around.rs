@@ -3,12 +3,12 @@
 //! The source R of all pairs with one h and m depends on the place of the disturbing body. With R = Σ_j R_j e^(ijl), its integral is Σ_j R_j e^(ijl)/(i(Ω +
 //! jn)). A harmonic with a small Ω_j has the factor 1 − e^(−Ω_j² span²/4) of [`crate::gravity_gradient::second_order::pair_harmonics`] there.
 
-use crate::gravity_gradient::constants::{CUTOFF, MOST_POINTS, SOURCE_CHANGE, SOURCE_MARGIN};
 use std::f64::consts::{PI, TAU};
 
 use super::pair_harmonics::{Near, Parts, Split, inverse, unreturned};
 use super::pair_terms::{PairTerm, Stand, tensors};
 use crate::gravity_gradient::body::contraction::contraction;
+use crate::gravity_gradient::constants::{CUTOFF, MOST_POINTS, SOURCE_CHANGE, SOURCE_MARGIN};
 use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::orbit::hansen::{at_most, decay};
 use crate::gravity_gradient::terms::term::{Term, slow_limit};

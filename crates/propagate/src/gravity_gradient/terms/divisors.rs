@@ -1,10 +1,10 @@
 //! The divisors of a term in the orbit's harmonics.
 //!
 //! On an ellipse Θ = Σ Θ_ja e^(ijl) with a = 0, ±2 for its parts with 1 and e^(±2if). A term of frequency Ω has the divisor Ω + jn there. Near a
-//! resonance it matters that the average torque changes Ω. From its mean over the orbit, K̄ = C η^(−3) (½ρ − ⅓) with ρ = 1 − k_N², follow
+//! resonance it matters that the average torque changes Ω. From its mean over the orbit, K̄ = ΓΔ η^(−3) (½ρ − ⅓) with ρ = 1 − k_N², follow
 //!
 //! ```text
-//! dℓ′/dt: ∂K̄/∂L = (C′/M) η^(−3) (½ρ − ⅓)    dy′/dt: −σ ∂K̄/∂L    dk/dt = ϖ n̂ × k,  ϖ = −C η^(−3) k_N/M
+//! dℓ′/dt: ∂K̄/∂L = (ΓΔ′/M) η^(−3) (½ρ − ⅓)    dy′/dt: −σ ∂K̄/∂L    dk/dt = ϖ n̂ × k,  ϖ = −ΓΔ η^(−3) k_N/M
 //! Ω + jn + (h − mσ) ∂K̄/∂L − ϖ (m k_N + a)
 //! ```
 //!

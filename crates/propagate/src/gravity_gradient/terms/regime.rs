@@ -9,13 +9,13 @@
 //! A part that is not corrected turns the attitude by its rate times the time during which it acts in one sense, which is the span or 2/|Ω + jn|. It also
 //! changes σ and M, so that the phases drift. [`Regimes::uncorrected`] is an upper estimate of both. A scene with a large one is [`Error::Resonance`].
 
-use crate::gravity_gradient::constants::{LARGEST_CORRECTED, LARGEST_EFFECT, REFUSAL_FACTOR, SLOW_RATIO};
 use std::f64::consts::{PI, TAU};
 
 use super::divisors::{AverageShift, Divisors, multiple_of, unreturned};
 use super::term::{Sensitivity, SizedTerm, Term, slow_limit};
 use crate::error::Error;
 use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::constants::{LARGEST_CORRECTED, LARGEST_EFFECT, REFUSAL_FACTOR, SLOW_RATIO};
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::orbit::hansen::at_most;
