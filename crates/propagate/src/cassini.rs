@@ -28,9 +28,10 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::error::Error;
-use crate::gravity_gradient::orbit::hansen::{LARGEST_NUMBER, hansen};
 use crate::input::body::Body;
-use crate::input::orbit::Orbit;
+use crate::orbit::elements::Orbit;
+use crate::orbit::hansen::{LARGEST_NUMBER, hansen};
+use crate::torque::strength;
 
 /// Intervals in which sign changes of the slope are searched.
 const INTERVALS: usize = 720;
@@ -115,7 +116,7 @@ impl Resonance {
         }
         let [_, coefficient, _] = hansen(orbit.eccentricity(), (2.0 * rotations) as usize).map(f64::abs);
         let rate = rotations * orbit.mean_motion() + pericentre_rate;
-        let width = (2.0 * orbit.torque_strength() * triaxiality * coefficient).sqrt();
+        let width = (2.0 * strength(orbit.strength()) * triaxiality * coefficient).sqrt();
         ((spin_rate - rate - from_inertial).abs() < width).then_some(Self { rotations, rate, coefficient })
     }
 }
@@ -139,7 +140,7 @@ impl Top {
         let triaxiality = (b - a) / c;
         let resonance = Resonance::around(orbit, spin_rate, triaxiality);
         let (rate, coefficient) = resonance.as_ref().map_or((spin_rate, 0.0), |at| (at.rate, at.coefficient));
-        let torque = orbit.torque_strength() / rate;
+        let torque = strength(orbit.strength()) / rate;
         Self {
             alpha: torque / (eta * eta * eta) * (0.5 * ((c - a) + (c - b)) / c),
             gamma: 0.5 * torque * coefficient * triaxiality,

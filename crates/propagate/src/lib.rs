@@ -14,6 +14,10 @@ mod numerics;
 
 mod simd;
 
+mod orbit;
+
+mod torque;
+
 mod input;
 
 mod torque_free;
@@ -52,12 +56,12 @@ pub use ensemble::Ensemble;
 pub use error::Error;
 pub use input::body::Body;
 pub use input::options::Method;
-pub use input::orbit::Orbit;
 pub use input::scene::Scene;
 pub use input::state::State;
-pub use input::tabulated::TabulatedOrbit;
 pub use motion::plan::Plan;
 pub use motion::solved::{Motion, Sample};
+pub use orbit::elements::Orbit;
+pub use orbit::table::TabulatedOrbit;
 pub use torque_free::mode::Mode;
 pub use torque_free::series::tables::SeriesTables;
 
@@ -76,9 +80,9 @@ pub mod periods {
 pub mod disturbers {
     //! Bodies whose gravity gradient acts: by elements of an orbit or by a table of positions; Cassini states.
     pub use crate::cassini::{CassiniState, cassini_states};
-    pub use crate::input::disturbing_body::DisturbingBody;
-    pub use crate::input::orbit::{Oblateness, Orbit};
-    pub use crate::input::tabulated::TabulatedOrbit;
+    pub use crate::orbit::disturbing_body::DisturbingBody;
+    pub use crate::orbit::elements::{Oblateness, Orbit};
+    pub use crate::orbit::table::TabulatedOrbit;
 }
 
 pub mod libration_terms {

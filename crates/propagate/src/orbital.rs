@@ -19,12 +19,12 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::error::Error;
 use crate::input::body::Body;
-use crate::input::disturbing_body::DisturbingBody;
-use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::motion::batch::Batch;
 use crate::motion::solved::Motion;
+use crate::orbit::disturbing_body::DisturbingBody;
+use crate::orbit::elements::Orbit;
 
 /// Whose orbit the elements or the table describe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,12 +12,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::input::body::Body;
-use crate::input::disturbing_body::DisturbingBody;
 use crate::input::options::Method;
 use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::motion::plan::{LONGEST_VERIFICATION, bound_in_words};
 use crate::motion::solved::Motion;
+use crate::orbit::disturbing_body::DisturbingBody;
 use crate::simd::halt::GOING;
 use crate::torque_free::error_budget::DEFAULT_ROTATIONS;
 use crate::torque_free::mode::Mode;

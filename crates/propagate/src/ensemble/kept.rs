@@ -71,7 +71,7 @@ mod tests {
     use super::*;
     use crate::Ensemble;
     use crate::input::options::{Averaging, Method};
-    use crate::input::orbit::Orbit;
+    use crate::orbit::elements::Orbit;
 
     /// Two members under a torque and one without.
     fn ensemble() -> Ensemble {

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::input::body::Body;
-use crate::input::orbit::Orbit;
 use crate::motion::solved::length;
+use crate::orbit::elements::Orbit;
 use crate::simd::halt::GOING;
 
 use super::kept::Kept;

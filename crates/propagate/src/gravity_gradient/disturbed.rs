@@ -11,6 +11,7 @@ use andoyer_double::DoubleDouble;
 
 use crate::error::Error;
 use crate::gravity_gradient::averaged::averages::Slow;
+use crate::gravity_gradient::averaged::bodies::most_arcs;
 use crate::gravity_gradient::averaged::spin::MOST_QUARTERS;
 use crate::gravity_gradient::body::cayley_klein::WobbleSeries;
 use crate::gravity_gradient::body::inertia::Inertia;
@@ -19,11 +20,11 @@ use crate::gravity_gradient::estimate::MOST_ORBITS;
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
-use crate::gravity_gradient::orbit::elliptic_motion::Course;
 use crate::input::options::{Averaging, Level};
 use crate::numerics::C64;
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
+use crate::orbit::position::Path;
 use crate::torque_free::polhode::Frame;
 
 /// Memory of the tables for one disturbing body, at most \[bytes\]: 18 to 50 kB.
@@ -42,20 +43,13 @@ pub(crate) struct GradientPlan {
     pub(crate) neglected: f64,
 }
 
-/// A disturbing body and its corrections.
-#[derive(Clone, Debug)]
-pub(crate) struct DisturbedBy {
-    pub(crate) course: Course,
-    pub(crate) corrections: Corrections,
-}
-
 /// A motion under the gravity gradient.
 #[derive(Clone, Debug)]
 pub(crate) struct Gradient {
     pub(crate) inertia: Inertia,
     pub(crate) pair: [WobbleSeries; 2],
-    /// At least one.
-    pub(crate) bodies: Vec<DisturbedBy>,
+    /// The path of each disturbing body, and its corrections. There is at least one.
+    pub(crate) bodies: Vec<(Path, Corrections)>,
     pub(crate) slow: Slow,
     /// The constant part of p e^(−iℓ′): √σ, and what corrects the error of first order at the epoch.
     pub(crate) circle: C64,
@@ -93,7 +87,7 @@ impl Gradient {
             DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) }
         });
         let unit = scaled(1.0, exponent);
-        let factors = averages.per_phase(&inertia, request);
+        let factors = averages.per_phase(&inertia);
         let slow = |frame| averages.slow(frame, (request, by_orbit), orbits, (unit, factors));
         let mut gradient = Self {
             anomaly: Phase::new(anomaly_rate, mean.p.arg()),
@@ -105,11 +99,7 @@ impl Gradient {
             pair: inertia.pair.each_ref().map(|series| WobbleSeries::new(series, inertia.sigma.sqrt())),
             inertia,
             slow: slow(mean.frame),
-            bodies: orbits
-                .iter()
-                .zip(corrections)
-                .map(|(orbit, corrections)| DisturbedBy { course: orbit.course.clone(), corrections })
-                .collect(),
+            bodies: orbits.iter().map(|orbit| orbit.path.clone()).zip(corrections).collect(),
             frame: polhode.frame.clone(),
             moments: polhode.moments,
             level,
@@ -126,7 +116,7 @@ impl Gradient {
 
     /// Its memory, in bytes.
     pub(crate) fn memory(&self) -> usize {
-        let exact = self.bodies.iter().flat_map(|body| &body.corrections.generator.exact).map(ExactTerm::memory);
+        let exact = self.bodies.iter().flat_map(|(_, corrections)| &corrections.generator.exact).map(ExactTerm::memory);
         TABLES * self.bodies.len() + exact.sum::<usize>() + self.slow.memory()
     }
 
@@ -144,24 +134,24 @@ impl Gradient {
     /// The longest time from the epoch for which the averaged equations are solved, in the user's unit.
     pub(crate) fn bound(&self) -> f64 {
         match &self.slow {
-            Slow::Spin(_) => MOST_ORBITS as f64 / self.bodies[0].course.mean_anomaly.frequency(),
+            Slow::Spin(_) => MOST_ORBITS as f64 / self.bodies[0].0.mean_anomaly.frequency(),
             Slow::Orbit(precession) => precession.bound(MOST_QUARTERS),
             // In a unit of time there are no more arcs than in all orbits together.
-            Slow::Bodies(_) => MOST_QUARTERS as f64 / self.bodies.iter().map(|body| body.course.arcs()).sum::<f64>(),
+            Slow::Bodies(_) => MOST_QUARTERS as f64 / self.bodies.iter().map(|(path, _)| most_arcs(path)).sum::<f64>(),
         }
     }
 
     /// The entries of the plan.
     pub(crate) fn plan(&self) -> GradientPlan {
-        let size = self.bodies.iter().map(|body| body.corrections.size).sum::<f64>();
-        let neglected = self.bodies.iter().map(|body| body.corrections.neglected);
+        let size = self.bodies.iter().map(|(_, corrections)| corrections.size).sum::<f64>();
+        let neglected = self.bodies.iter().map(|(_, corrections)| corrections.neglected);
         GradientPlan {
             averaging: match self.slow {
                 Slow::Spin(_) | Slow::Bodies(_) => Averaging::Spin,
                 Slow::Orbit(_) => Averaging::Orbit,
             },
             level: self.level,
-            terms: self.bodies.iter().map(|body| body.corrections.count).sum(),
+            terms: self.bodies.iter().map(|(_, corrections)| corrections.count).sum(),
             size,
             neglected: neglected.fold(size * size, f64::max),
         }
@@ -170,11 +160,11 @@ impl Gradient {
     /// The parts of the theory that this scene did not need.
     pub(crate) fn skipped(&self) -> Vec<String> {
         let mut skipped = Vec::new();
-        let dropped = self.bodies.iter().map(|body| body.corrections.dropped).sum::<f64>();
+        let dropped = self.bodies.iter().map(|(_, corrections)| corrections.dropped).sum::<f64>();
         if dropped > 0.0 {
             skipped.push(format!("short-period terms: the dropped terms sum to {dropped:.1e} rad"));
         }
-        if self.bodies.iter().all(|body| body.course.ellipse.eccentricity == 0.0) {
+        if self.bodies.iter().all(|(path, _)| path.ellipse.eccentricity == 0.0) {
             let orbits = if self.bodies.len() == 1 { "the orbit is a circle" } else { "the orbits are circles" };
             skipped.push(format!("Kepler's equation: {orbits}"));
         }

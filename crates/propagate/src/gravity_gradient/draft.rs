@@ -3,19 +3,19 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::{Error, TorqueMeasure};
-use crate::gravity_gradient::averaged::averaged_orbit::AveragedOrbit;
 use crate::gravity_gradient::averaged::averages::Averages;
+use crate::gravity_gradient::averaged::equations::AveragedTorque;
 use crate::gravity_gradient::constants::FASTEST_PRECESSION;
+use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::estimate::{by_orbit, errors};
 use crate::gravity_gradient::first_order::mean_motion::{MeanMotion, first_order, weak_enough};
 use crate::gravity_gradient::first_order::mean_variables::Mean;
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::request::Request;
 use crate::gravity_gradient::second_order::k2_remainder::SteadyRates;
 use crate::gravity_gradient::second_order::mean_elements::SecondOrderData;
 use crate::input::options::Level;
-use crate::input::orbit::Orbit;
 use crate::numerics::C64;
+use crate::orbit::elements::Orbit;
 use crate::torque_free::polhode::Polhode;
 
 /// What the levels of a motion share.
@@ -24,7 +24,7 @@ pub(crate) struct Outset<'a> {
     pub(crate) attitude: UnitQuaternion<f64>,
     pub(crate) request: Request<'a>,
     /// The orbits of all disturbing bodies.
-    pub(crate) orbits: Vec<EllipticOrbit<'a>>,
+    pub(crate) orbits: Vec<Disturbance<'a>>,
     first: MeanMotion,
     refinements: Option<SecondOrderData>,
 }
@@ -57,7 +57,7 @@ impl<'a> Outset<'a> {
             return Err(Error::OneFixedOrbit { argument: "level", value: level.to_string() });
         }
         let frame = polhode.invariable_frame(attitude);
-        let orbit = |orbit: &'a Orbit| EllipticOrbit::new(orbit, request, polhode.scales.1, frame * Vector3::z());
+        let orbit = |orbit: &'a Orbit| Disturbance::new(orbit, request, polhode.scales.1, frame * Vector3::z());
         let orbits = request.orbits.iter().map(orbit).collect::<Result<Vec<_>, _>>()?;
         weak_enough(polhode, sigma, &orbits)?;
         let p = C64::from_polar(sigma.sqrt(), anomaly);
@@ -89,14 +89,14 @@ impl<'a> Outset<'a> {
 }
 
 /// Checks that the averaged equations can be solved: their solution on a quarter of the orbit is a polynomial, which cannot follow a faster precession.
-fn slow_enough(averages: &Averages, orbits: &[EllipticOrbit<'_>]) -> Result<(), Error> {
+fn slow_enough(averages: &Averages, orbits: &[Disturbance<'_>]) -> Result<(), Error> {
     let fastest = orbits.iter().fold(0.0_f64, |most, orbit| most.max(orbit.mean_motion));
-    let turn = |(ellipse, orbit): (&AveragedOrbit, &EllipticOrbit<'_>)| {
+    let turn = |(torque, orbit): (&AveragedTorque, &Disturbance<'_>)| {
         // The largest rate of the true anomaly within the span is half of that of twice the anomaly.
         let share = (0.5 * orbit.envelope.fastest / fastest).min(1.0);
-        ellipse.strength.abs() * (1.0 + ellipse.eccentricity) * share
+        torque.precession.abs() * (1.0 + torque.eccentricity) * share
     };
-    let size = averages.ellipses.iter().zip(orbits).map(turn).sum::<f64>();
+    let size = averages.torques.iter().zip(orbits).map(turn).sum::<f64>();
     if size <= FASTEST_PRECESSION {
         return Ok(());
     }

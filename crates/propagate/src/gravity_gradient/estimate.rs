@@ -16,12 +16,13 @@ use crate::error::Error;
 use crate::gravity_gradient::averaged::averages::Averages;
 use crate::gravity_gradient::averaged::spin::MOST_QUARTERS;
 use crate::gravity_gradient::constants::{CONVERGED, DRIFT, EPOCH, ORBIT, PERIODIC};
+use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::request::Request;
 use crate::gravity_gradient::terms::term::Sensitivity;
 use crate::input::options::{Averaging, Level};
+use crate::orbit::position::eta;
 
 /// Number of orbits on each side of the epoch for which quarters are kept.
 pub(crate) const MOST_ORBITS: usize = MOST_QUARTERS / 4 - 2;
@@ -31,13 +32,13 @@ pub(crate) const MOST_ORBITS: usize = MOST_QUARTERS / 4 - 2;
 pub(crate) fn errors(
     MeanMotion { inertia, corrections, .. }: &MeanMotion,
     averages: &Averages,
-    orbits: &[EllipticOrbit<'_>],
+    orbits: &[Disturbance<'_>],
     (level, left): (Level, [f64; 2]),
 ) -> [f64; 2] {
     let response = Sensitivity::new(inertia);
     let duration = orbits[0].duration;
     let sum = |part: fn(&Corrections) -> f64| corrections.iter().map(part).sum::<f64>();
-    let largest = |part: fn(&EllipticOrbit<'_>) -> f64| orbits.iter().map(part).fold(0.0, f64::max);
+    let largest = |part: fn(&Disturbance<'_>) -> f64| orbits.iter().map(part).fold(0.0, f64::max);
     let change = 0.25 * sum(|corrections| corrections.rms);
     let drift = response.drift(change) * change * duration;
     let drift = match level {
@@ -60,7 +61,7 @@ pub(crate) fn errors(
 }
 
 /// Whether the equations are averaged over the orbit as well. This average adds `error` \[rad\].
-pub(crate) fn by_orbit(request: &Request<'_>, orbit: &EllipticOrbit<'_>, error: f64) -> Result<bool, Error> {
+pub(crate) fn by_orbit(request: &Request<'_>, orbit: &Disturbance<'_>, error: f64) -> Result<bool, Error> {
     let fixed = request.is_fixed();
     let orbits = orbit.mean_motion * orbit.duration / TAU;
     let too_far = request.spanned && orbits > MOST_ORBITS as f64;
@@ -78,9 +79,9 @@ pub(crate) fn by_orbit(request: &Request<'_>, orbit: &EllipticOrbit<'_>, error: 
 }
 
 /// The error by the terms that the level omits: short-period terms, and the tilt in the averages.
-fn omitted(corrections: &Corrections, response: &Sensitivity, orbit: &EllipticOrbit<'_>) -> f64 {
+fn omitted(corrections: &Corrections, response: &Sensitivity, orbit: &Disturbance<'_>) -> f64 {
     let [axial, slope] = corrections.axial_omitted;
-    let scale = orbit.mean_motion * orbit.eta.powi(-3);
+    let scale = orbit.mean_motion * eta(orbit.orbit.eccentricity()).powi(-3);
     let rate = scale * (4.5 * axial + 2.0 * slope * (response.visible + response.sigma));
     corrections.omitted + rate * (1.0 + orbit.mean_motion * orbit.duration)
 }

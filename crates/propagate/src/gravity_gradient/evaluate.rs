@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 
 use pulp::NullaryFnOnce;
 
-use crate::gravity_gradient::disturbed::{DisturbedBy, Gradient};
+use crate::gravity_gradient::disturbed::Gradient;
+use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::generator::{Correction, MeanLanes};
-use crate::gravity_gradient::orbit::elliptic_motion::Elapsed;
+use crate::orbit::position::{Elapsed, Path};
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
@@ -32,13 +33,14 @@ impl Gradient {
     #[inline(always)]
     fn osculating<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
         let all = |value: f64| elapsed.0.all(value);
-        let first = self.bodies[0].course.at(elapsed);
+        let (path, corrections) = &self.bodies[0];
+        let first = path.at(elapsed);
         let (frame, [by_anomaly, by_longitude]) = self.slow.at(&first, elapsed);
         let plane = |(im, re): (Lanes<S>, Lanes<S>)| ComplexLanes { re, im };
         let turn = plane(self.anomaly.sin_cos_beyond(elapsed, by_anomaly * all(self.drifts[0] / TAU)));
         let half = plane(self.half_longitude.sin_cos_beyond(elapsed, by_longitude * all(0.5 * self.drifts[1] / TAU)));
         let mean = MeanLanes { turn, spin: half * half, frame, elapsed: elapsed.0 };
-        let mut change = self.bodies[0].corrections.generator.at(&mean, &first.place, &first.axes);
+        let mut change = corrections.generator.at(&mean, &first.place, &first.axes);
         for body in &self.bodies[1..] {
             change = change.plus(elapsed.0.simd().vectorize(OtherBody { body, mean: &mean, elapsed }));
         }
@@ -98,7 +100,7 @@ impl Gradient {
 
 /// The corrections for one of further bodies, as a task that is compiled separately: the first body's are inlined.
 struct OtherBody<'a, S: InstructionSet> {
-    body: &'a DisturbedBy,
+    body: &'a (Path, Corrections),
     mean: &'a MeanLanes<S>,
     elapsed: Elapsed<S>,
 }
@@ -108,8 +110,9 @@ impl<S: InstructionSet> NullaryFnOnce for OtherBody<'_, S> {
 
     #[inline(always)]
     fn call(self) -> Correction<S> {
-        let when = self.body.course.at(self.elapsed);
-        self.body.corrections.generator.at(self.mean, &when.place, &when.axes)
+        let (path, corrections) = self.body;
+        let position = path.at(self.elapsed);
+        corrections.generator.at(self.mean, &position.place, &position.axes)
     }
 }
 

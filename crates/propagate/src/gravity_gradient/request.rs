@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::gravity_gradient::constants::{DROPPED, DROPPED_OF_SECOND_ORDER, LARGEST_SEPARATRIX_RATIO, PAIRS};
 use crate::input::options::{Averaging, Level};
-use crate::input::orbit::Orbit;
+use crate::orbit::elements::Orbit;
 use crate::torque_free::closed_form::ClosedForm;
 use crate::torque_free::frequencies::Secular;
 use crate::torque_free::mode::Mode;

@@ -3,17 +3,18 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::disturbance;
+use crate::gravity_gradient::disturbance::{Disturbance, whole};
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::mean_variables::{Mean, PeriodicChange};
 use crate::gravity_gradient::level::chosen;
-use crate::gravity_gradient::orbit::elliptic_orbit::{EllipticOrbit, whole};
-use crate::gravity_gradient::orbit::hansen::OrbitSeries;
-use crate::gravity_gradient::orbit::span::Reach;
 use crate::gravity_gradient::request::Request;
 use crate::input::options::{Averaging, Level};
-use crate::input::orbit::Orbit;
 use crate::numerics::C64;
-use crate::simd::kepler::Place;
+use crate::orbit::elements::Orbit;
+use crate::orbit::hansen::OrbitSeries;
+use crate::orbit::kepler::Place;
+use crate::orbit::span::Reach;
 use crate::simd::lanes::Lanes;
 use crate::torque_free::polhode::Polhode;
 use crate::{Body, State};
@@ -127,7 +128,7 @@ impl Stand {
 
     /// The orbit's harmonics.
     fn series() -> OrbitSeries {
-        OrbitSeries::new(&Reach { eccentricity: 0.3, anomaly: 0.0, sides: [100.0; 2] }).expect("a series")
+        disturbance::series(&Reach { eccentricity: 0.3, anomaly: 0.0, sides: [100.0; 2] }).expect("a series")
     }
 
     fn new(moments: [f64; 3], rates: [f64; 3]) -> Self {
@@ -149,7 +150,7 @@ impl Stand {
     fn change(&self, mean: &Mean, series: Option<&OrbitSeries>) -> PeriodicChange {
         let inertia = Inertia::new(&self.polhode, mean.p.norm_sqr(), mean.momentum);
         let whole = whole(&self.orbit, self.mean.frame * Vector3::z());
-        let elliptic = EllipticOrbit { duration: 1e5, series: series.cloned(), ..whole };
+        let elliptic = Disturbance { duration: 1e5, series: series.cloned(), ..whole };
         Corrections::new(&inertia, &elliptic).expect("no resonance").at(mean, &self.place)
     }
 

@@ -3,11 +3,11 @@
 use nalgebra::UnitQuaternion;
 
 use super::body::Body;
-use super::disturbing_body::DisturbingBody;
 use super::options::{Averaging, Level, MAX_ORDER, Method};
-use super::orbit::Orbit;
 use super::state::State;
 use crate::error::Error;
+use crate::orbit::disturbing_body::DisturbingBody;
+use crate::orbit::elements::Orbit;
 
 /// A body, its state at an epoch, and the options of the solution.
 ///

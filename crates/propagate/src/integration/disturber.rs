@@ -8,27 +8,26 @@ use std::f64::consts::PI;
 
 use super::interpolation::Table;
 use super::series::{ROWS, Row, Scalars, Series, ZERO, add_scaled};
-use crate::input::disturbing_body::DisturbingBody;
-use crate::input::orbit::Orbit;
-use crate::numerics::hyperbola::hyperbolic_anomaly;
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
+use crate::orbit::disturbing_body::DisturbingBody;
+use crate::orbit::elements::Orbit;
+use crate::orbit::hyperbola::hyperbolic_anomaly;
+use crate::orbit::kepler::eccentric_anomaly;
+use crate::orbit::position::singularity;
 use crate::simd::instruction_set::InstructionSet;
-use crate::simd::kepler::eccentric_anomaly;
-
-/// Below this √(1−e²) the first term of atanh √(1−e²) − √(1−e²) is within 0.6 % of it, and the difference would cancel.
-const SMALL_ROOT: f64 = 0.1;
+use crate::torque::strength;
 
 /// A disturbing body with its times and rates in the unit of the integration.
 #[derive(Clone, Debug)]
 pub(super) enum Disturber {
-    Orbiting(Box<Orbiting>),
+    Conic(Box<Conic>),
     Tabulated(Box<Table>),
 }
 
-/// A body on an orbit.
+/// A body on an ellipse or a hyperbola.
 #[derive(Clone, Debug)]
-pub(super) struct Orbiting {
+pub(super) struct Conic {
     mean_anomaly: Phase,
     /// The orbit and the epoch of a hyperbola, whose mean anomaly does not turn.
     hyperbola: Option<(Orbit, f64)>,
@@ -54,7 +53,7 @@ impl Disturber {
     /// From the epoch of the scene and the exponent of the unit of rates.
     pub(super) fn new(body: &DisturbingBody, epoch: f64, exponent: i32) -> Self {
         match body {
-            DisturbingBody::Orbit(orbit) => Self::Orbiting(Box::new(Orbiting::new(orbit, epoch, exponent))),
+            DisturbingBody::Orbit(orbit) => Self::Conic(Box::new(Conic::new(orbit, epoch, exponent))),
             DisturbingBody::Tabulated(table) => Self::Tabulated(Box::new(Table::new(table, epoch, exponent))),
         }
     }
@@ -69,7 +68,7 @@ impl Disturber {
         out: &mut Series,
     ) -> f64 {
         match self {
-            Self::Orbiting(orbit) => orbit.series(simd, time, order, out),
+            Self::Conic(orbit) => orbit.series(simd, time, order, out),
             Self::Tabulated(table) => table.series((time, backward), order, out),
         }
     }
@@ -77,7 +76,7 @@ impl Disturber {
     /// The next time after (or before) a time at which the series ends.
     pub(super) fn next_knot(&self, time: f64, forward: bool) -> Option<(f64, f64)> {
         match self {
-            Self::Orbiting(_) => None,
+            Self::Conic(_) => None,
             Self::Tabulated(table) => table.next_knot(time, forward),
         }
     }
@@ -86,7 +85,7 @@ impl Disturber {
     /// number of steps is proportional to it.
     pub(super) fn passed(&self, time: (f64, f64)) -> f64 {
         match self {
-            Self::Orbiting(orbit) => orbit.passed(time),
+            Self::Conic(orbit) => orbit.passed(time),
             Self::Tabulated(table) => table.passed(time),
         }
     }
@@ -94,13 +93,13 @@ impl Disturber {
     /// With the earlier or the later of the neighbouring polynomials, where it has a table.
     pub(super) fn neighbouring(&self, earlier: bool) -> Self {
         match self {
-            Self::Orbiting(orbit) => Self::Orbiting(orbit.clone()),
+            Self::Conic(orbit) => Self::Conic(orbit.clone()),
             Self::Tabulated(table) => Self::Tabulated(Box::new(table.neighbouring(earlier))),
         }
     }
 }
 
-impl Orbiting {
+impl Conic {
     fn new(orbit: &Orbit, epoch: f64, exponent: i32) -> Self {
         let [node, argument] = orbit.node_and_argument(epoch);
         let eccentricity = orbit.eccentricity();
@@ -115,15 +114,9 @@ impl Orbiting {
             mean_motion: scaled(orbit.mean_motion(), -exponent),
             eccentricity,
             root,
-            // The distance is 0 where cos E = 1/e: at E = iy with tanh y = √(1−e²), and M = i (y − √(1−e²)), whose series begins with a third of the cube. On a
-            // hyperbola it is 0 where cosh H = 1/e: at H = iy with tan y = √(e²−1), and M = i (√(e²−1) − y).
-            singularity: match orbit.is_hyperbola() {
-                _ if root < SMALL_ROOT => root * root * root / 3.0,
-                true => root - root.atan(),
-                false => root.atanh() - root,
-            },
+            singularity: singularity(eccentricity),
             tilt: orbit.tilt(),
-            strength: scaled((2.0 * orbit.torque_strength()).sqrt(), -exponent),
+            strength: scaled((2.0 * strength(orbit.strength())).sqrt(), -exponent),
             exponent,
         }
     }

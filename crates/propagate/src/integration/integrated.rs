@@ -12,12 +12,13 @@ use super::expansion::Equations;
 use super::integrator::{KeptSteps, Precision, ROUNDING, Runner, Side, Step};
 use super::series::{Coefficients, Row, largest};
 use crate::error::Error;
-use crate::input::disturbing_body::DisturbingBody;
-use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
-use crate::input::tabulated::TabulatedOrbit;
 use crate::numerics::scaling::{exponent, scaled};
+use crate::orbit::disturbing_body::DisturbingBody;
+use crate::orbit::elements::Orbit;
+use crate::orbit::table::TabulatedOrbit;
 use crate::simd::instruction_set::{dispatch, dispatch_few};
+use crate::torque::strength;
 
 /// Relative truncation error of a step. The sum of such errors over all steps is below the rounding error.
 const FINEST: f64 = 1e-19;
@@ -340,7 +341,7 @@ fn too_coarse(scene: &Scene, [start, stop]: [f64; 2]) -> Option<Error> {
 /// The fastest rate that an orbit brings in, and the torque's √(3μ/ρ³) at the apocentre, or where a hyperbola is farthest within the span.
 fn rates_of_orbit(orbit: &Orbit, ends: [f64; 2]) -> (f64, f64) {
     let e = orbit.eccentricity();
-    let strength = (2.0 * orbit.torque_strength()).sqrt();
+    let strength = (2.0 * strength(orbit.strength())).sqrt();
     let near = (1.0 - e).abs().powf(-1.5);
     let farthest = if orbit.is_hyperbola() {
         ends.map(|end| orbit.hyperbolic_distance(end)).into_iter().fold(e - 1.0, f64::max)

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use andoyer_double::two_sum;
 
 use super::series::{ROWS, Scalars, Series, power, product};
-use crate::input::tabulated::{NODES, TabulatedOrbit};
 use crate::numerics::scaling::scaled;
+use crate::orbit::table::{NODES, TabulatedOrbit};
 
 /// A table in the unit of the integration.
 #[derive(Clone, Debug)]

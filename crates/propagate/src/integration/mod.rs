@@ -5,7 +5,7 @@
 //! displaced states measure the error ([`bound`]). At equal error the integration with its error bound takes 1.04 to 1.5 times the time of heyoka, which has no
 //! bound, without its compilation, and about three times for a chaotic motion that misses its tolerance (`make rivals-integration`, benches/README.md).
 //!
-//! Imports errors, numerics, simd and input.
+//! Imports errors, numerics, simd, orbit, torque and input.
 
 mod bound;
 pub(crate) mod dense;

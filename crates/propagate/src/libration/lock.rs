@@ -7,10 +7,10 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::shape::{LockedShape, PlaneMotion};
 use crate::cassini::{CassiniState, cassini_states};
-use crate::input::disturbing_body::DisturbingBody;
-use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::numerics::phase::Phase;
+use crate::orbit::disturbing_body::DisturbingBody;
+use crate::orbit::elements::Orbit;
 
 /// Largest number of rotations in two orbits: 7/2 rotations an orbit, and one more.
 const MOST_IN_TWO: i32 = 8;

@@ -3,7 +3,7 @@
 //! `shape` has the equations, `lock` finds the resonance of a scene and its variables, `hamiltonian` writes the Hamiltonian as a polynomial, `form` normalizes it, `course` makes the
 //! Fourier series of one motion, `residual` inserts it into the equations of motion, `solution` climbs the orders until the estimate meets the tolerance, `evaluate` evaluates with `waves`, `terms` is what a user reads.
 //!
-//! Imports errors, numerics, simd, input, and Hansen's coefficients of `gravity_gradient`.
+//! Imports errors, numerics, simd, orbit, torque and input.
 
 mod course;
 pub(crate) mod evaluate;

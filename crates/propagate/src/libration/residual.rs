@@ -8,8 +8,9 @@ use andoyer_series::num_complex::Complex;
 use super::course::FourierMotion;
 use super::lock::Lock;
 use super::shape::LockedShape;
-use crate::simd::kepler::Place;
+use crate::orbit::kepler::Place;
 use crate::simd::lanes::Lanes;
+use crate::torque::strength;
 
 /// Orbits over the slowest period in which the series is inserted, and times in each.
 const ORBITS: usize = 16;
@@ -90,7 +91,7 @@ fn slopes(shape: &LockedShape, state: &[f64; 6], anomaly: f64, node: f64) -> [f6
     let (x, y, z) = (cosine, sine * level, -sine * tilt);
     let (sin_node, cos_node) = node.sin_cos();
     let direction = [cos_node * x + sin_node * y, cos_node * y - sin_node * x, z];
-    let torque = 1.5 * shape.attraction * inverse.powi(3);
+    let torque = strength(shape.attraction) * inverse.powi(3);
     std::array::from_fn(|slot| {
         let mut at = state.map(|x| Complex::new(x, 0.0));
         at[slot].im = STEP;

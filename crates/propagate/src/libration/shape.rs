@@ -1,6 +1,6 @@
 //! The equations of a locked rotation: what does not depend on the state of the body.
 
-use crate::gravity_gradient::orbit::hansen::hansen;
+use crate::orbit::hansen::hansen;
 
 /// The equations of a locked rotation. The unit of time is 1/n, and that of the moments is the largest one.
 #[derive(Clone, Copy, Debug, PartialEq)]

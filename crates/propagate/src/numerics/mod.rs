@@ -1,8 +1,7 @@
-//! Scalar numerics: Kepler's equation of a hyperbola, phases in double-double, scaling by powers of two, the theta quantities of a polhode.
+//! Scalar numerics: phases in double-double, scaling by powers of two, the theta quantities of a polhode.
 //!
 //! Imports errors only.
 
-pub(crate) mod hyperbola;
 pub(crate) mod kept;
 pub(crate) mod phase;
 pub(crate) mod scaling;

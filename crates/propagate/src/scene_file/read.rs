@@ -5,12 +5,12 @@ use nalgebra::Vector3;
 use super::problem::Refusal;
 use super::tables::{BodyTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable, StateTable};
 use crate::input::body::Body;
-use crate::input::disturbing_body::DisturbingBody;
-use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::input::state::State;
-use crate::input::tabulated::TabulatedOrbit;
 use crate::observed::periods::ObservedPeriods;
+use crate::orbit::disturbing_body::DisturbingBody;
+use crate::orbit::elements::Orbit;
+use crate::orbit::table::TabulatedOrbit;
 use crate::orbital::{EulerSequence, OrbitalFrame};
 
 impl SceneTable {

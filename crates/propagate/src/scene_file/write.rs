@@ -2,10 +2,10 @@
 
 use super::tables::{BodyTable, OrbitTable, OrbitTables, SceneTable, StateTable};
 use crate::input::body::Body;
-use crate::input::disturbing_body::DisturbingBody;
 use crate::input::options::{Averaging, Level};
-use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
+use crate::orbit::disturbing_body::DisturbingBody;
+use crate::orbit::elements::Orbit;
 
 impl SceneTable {
     /// The tables of a scene. Options that only a scene with a disturbing body needs are left out of the others.

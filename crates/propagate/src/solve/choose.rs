@@ -5,14 +5,14 @@ use std::sync::atomic::AtomicBool;
 use super::free::{self, Preparation};
 use super::{averaged, integrated, libration};
 use crate::error::{Error, Kind};
-use crate::input::disturbing_body::DisturbingBody;
 use crate::input::options::{Averaging, Level, Method};
-use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::integration::integrated::prospect;
 use crate::integration::integrator::MOST_STEPS;
 use crate::motion::plan::{ROUNDED_TOLERANCE, bound_in_words, in_ascii};
 use crate::motion::solved::Motion;
+use crate::orbit::disturbing_body::DisturbingBody;
+use crate::orbit::elements::Orbit;
 use crate::torque_free::polhode::Polhode;
 use crate::torque_free::series::tables::SeriesTables;
 

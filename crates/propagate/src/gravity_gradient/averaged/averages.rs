@@ -1,21 +1,21 @@
 //! The averaged torques of a mean motion: the drifts of the phases, and the averaged motion that follows from them.
 
 use super::arcs::Arcs;
-use super::averaged_orbit::AveragedOrbit;
-use super::bodies::{Bodies, Pull};
+use super::bodies::Bodies;
+use super::equations::AveragedTorque;
 use super::precession::Precession;
 use super::spin::Spin;
 use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
-use crate::gravity_gradient::orbit::elliptic_motion::{Elapsed, When};
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::request::Request;
 use crate::gravity_gradient::second_order::k2::in_lanes;
 use crate::gravity_gradient::second_order::k2_remainder::SteadyRates;
 use crate::gravity_gradient::second_order::mean_elements;
 use crate::gravity_gradient::terms::term::Sensitivity;
 use crate::input::options::Level;
+use crate::orbit::position::{Elapsed, Position};
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
@@ -24,10 +24,10 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 /// The averaged torques.
 pub(crate) struct Averages {
-    pub(crate) ellipses: Vec<AveragedOrbit>,
+    pub(crate) torques: Vec<AveragedTorque>,
     /// Δ over M.
     delta: f64,
-    /// −½ (dΔ/dσ)/M, without the mass fraction. ⟨D⟩ = −½ (dΨ/dt) Δ with the phase integral Ψ, so the derivatives of ⟨D⟩ with respect to L, and to M at
+    /// −½ (dΔ/dσ)/M. ⟨D⟩ = −½ (dΨ/dt) Δ with the phase integral Ψ, so the derivatives of ⟨D⟩ with respect to L, and to M at
     /// fixed L, are the product of this with dΨ/dt, and with −σ dΨ/dt.
     pub(crate) slope: f64,
 }
@@ -36,35 +36,33 @@ impl Averages {
     pub(crate) fn new(
         polhode: &Polhode,
         (motion, steady): (&MeanMotion, SteadyRates),
-        orbits: &[EllipticOrbit<'_>],
+        orbits: &[Disturbance<'_>],
         level: Level,
     ) -> Self {
         let MeanMotion { mean, inertia, .. } = motion;
         let (axial, axial_slope) = level.tensor(inertia, 0, 0);
         let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) / mean.momentum;
-        let ellipses = orbits.iter().map(|elliptic| {
+        let torques = orbits.iter().map(|elliptic| {
             let second = (level == Level::SecondOrder).then(|| mean_elements::hamiltonian(inertia, elliptic, steady));
-            AveragedOrbit::new(elliptic, delta, second)
+            AveragedTorque::new(elliptic, delta, second)
         });
-        Self { ellipses: ellipses.collect(), delta, slope: -0.5 * 1.5 * axial_slope / mean.momentum }
+        Self { torques: torques.collect(), delta, slope: -0.5 * 1.5 * axial_slope / mean.momentum }
     }
 
     /// The drifts of ℓ′ and y′ for a unit of Ψ.
-    pub(crate) fn per_phase(&self, inertia: &Inertia, request: &Request<'_>) -> [f64; 2] {
-        // Ψ of one fixed orbit has no factor φ, so the slope is multiplied by φ here. Ψ of several bodies contains it.
-        let slope = if request.is_fixed() { self.slope * self.ellipses[0].fraction } else { self.slope };
-        [slope, -inertia.sigma * slope]
+    pub(crate) fn per_phase(&self, inertia: &Inertia) -> [f64; 2] {
+        [self.slope, -inertia.sigma * self.slope]
     }
 
     /// The rates of ℓ′ and y′ in the orbit average.
     pub(crate) fn secular(&self, inertia: &Inertia, mean: &Mean) -> [f64; 2] {
         let axis = mean.frame * Vector3::z();
-        if let Some(average) = self.ellipses[0].over_orbit() {
+        if let Some(average) = self.torques[0].over_orbit() {
             let [pole] = in_lanes(Lanes::splat(pulp::Scalar, 0.0), &[axis]);
             let (_, phases) = average.mean(&pole);
             return phases.map(|rate| rate.values()[0]);
         }
-        let rate = self.ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction).sum::<f64>();
+        let rate = self.torques.iter().map(|torque| torque.secular(&axis)).sum::<f64>();
         [self.slope * rate, -inertia.sigma * self.slope * rate]
     }
 
@@ -74,13 +72,12 @@ impl Averages {
         &self,
         response: &Sensitivity,
         inertia: &Inertia,
-        elliptic: &EllipticOrbit<'_>,
+        elliptic: &Disturbance<'_>,
         level: Level,
     ) -> f64 {
-        let ellipse = &self.ellipses[0];
-        let precession = ellipse.strength.abs();
-        let slope = (self.slope * ellipse.fraction).abs() * (response.visible + inertia.sigma);
-        let phase = slope * elliptic.mean_motion / ellipse.eta_cubed;
+        let torque = &self.torques[0];
+        let precession = torque.precession.abs();
+        let phase = self.slope.abs() * (response.visible + inertia.sigma) * torque.phase;
         let growing = if level == Level::SecondOrder { precession } else { 1.0 };
         precession * (precession + 6.0 * phase) * (1.0 + growing * elliptic.mean_motion * elliptic.duration)
     }
@@ -90,25 +87,21 @@ impl Averages {
         &self,
         frame: UnitQuaternion<f64>,
         (request, by_orbit): (&Request<'_>, bool),
-        orbits: &[EllipticOrbit<'_>],
+        orbits: &[Disturbance<'_>],
         (unit, factors): (f64, [f64; 2]),
     ) -> Slow {
-        let ellipse = &self.ellipses[0];
+        let torque = &self.torques[0];
         match (request.is_fixed(), by_orbit) {
             (false, _) => {
-                let bodies = orbits.iter().zip(&self.ellipses);
-                let pulls = bodies.map(|(orbit, AveragedOrbit { mean_motion, fraction, .. })| Pull {
-                    course: orbit.course.clone(),
-                    attraction: mean_motion * mean_motion * fraction * unit,
-                });
-                let bodies = Bodies { pulls: pulls.collect(), delta: self.delta };
+                let bodies = orbits.iter().map(|body| (body.path.clone(), body.strength() / 1.5 * unit));
+                let bodies = Bodies { bodies: bodies.collect(), delta: self.delta };
                 Slow::Bodies(Box::new(Arcs::new(bodies, &frame)))
             }
             (true, true) => {
                 let place = &orbits[0].start.place;
-                Slow::Orbit(Box::new(Precession::new(ellipse.clone(), frame, place, (unit, factors))))
+                Slow::Orbit(Box::new(Precession::new(torque.clone(), frame, place, (unit, factors))))
             }
-            (true, false) => Slow::Spin(Box::new(Spin::new(ellipse.clone(), frame, &orbits[0].start))),
+            (true, false) => Slow::Spin(Box::new(Spin::new(torque.clone(), frame, &orbits[0].start))),
         }
     }
 }
@@ -139,7 +132,7 @@ impl Slow {
     #[inline(always)]
     pub(crate) fn at<S: InstructionSet>(
         &self,
-        when: &When<S>,
+        when: &Position<S>,
         elapsed: Elapsed<S>,
     ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         match self {

@@ -65,25 +65,6 @@ static CHEBYSHEV: LazyLock<[AtPoints; POINTS]> = LazyLock::new(|| {
     polynomials
 });
 
-/// The unit angular momentum of a frame: its axis 3.
-#[inline(always)]
-pub(crate) fn pole<S: InstructionSet>(frame: QuaternionLanes<S>) -> [Lanes<S>; 3] {
-    let rows = frame.rows();
-    [rows[0][2], rows[1][2], rows[2][2]]
-}
-
-/// The derivatives of a column, from the angular velocity of the frame in inertial components and the derivatives of the two numbers.
-#[inline(always)]
-pub(crate) fn column_slopes<S: InstructionSet>(
-    frame: QuaternionLanes<S>,
-    [x, y, z]: [Lanes<S>; 3],
-    [anomaly, longitude]: [Lanes<S>; 2],
-) -> [Lanes<S>; COLUMNS] {
-    let half = x.all(0.5);
-    let [i, j, k, w] = (QuaternionLanes([x * half, y * half, z * half, x.all(0.0)]) * frame).0;
-    [i, j, k, w, anomaly, longitude]
-}
-
 /// The coefficients of a polynomial in the place in one interval, from −1 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PiecePolynomial {

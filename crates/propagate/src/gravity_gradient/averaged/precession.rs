@@ -8,14 +8,14 @@ use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::arcs::{Arcs, Averaged, SolvedArc};
-use super::averaged_orbit::AveragedOrbit;
-use super::polynomial::{AveragedEquations, COLUMNS, Column, PiecePolynomial, column_slopes, pole};
+use super::equations::{AveragedTorque, pole};
+use super::polynomial::{Column, PiecePolynomial};
 use crate::gravity_gradient::constants::SLOWEST_PRECESSION;
 use crate::gravity_gradient::second_order::k2_orbit_mean::OverOrbit;
 use crate::numerics::phase::Phase;
+use crate::orbit::kepler::Place;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
-use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
 /// Number of steps to the mean frame at the epoch. Each one multiplies its error by κ_o.
@@ -24,7 +24,7 @@ const EPOCH_STEPS: usize = 4;
 /// Precession with the periodic part of one orbit.
 #[derive(Clone, Debug)]
 pub(crate) struct Precession {
-    ellipse: AveragedOrbit,
+    torque: AveragedTorque,
     /// Factors of the periodic part of Ψ: 1, or in second order the drifts of ℓ′ and y′ for a unit of Ψ.
     factors: [f64; 2],
     mean: MeanFrame,
@@ -76,41 +76,33 @@ impl Averaged for PrecessionEquations {
     }
 }
 
-impl AveragedEquations for OverOrbit {
-    #[inline(always)]
-    fn at<S: InstructionSet>(&self, _: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS] {
-        let (turning, phases) = self.mean(&pole(frame));
-        column_slopes(frame, turning, phases)
-    }
-}
-
 impl Precession {
     /// The motion from the frame at one place of the orbit, where Ψ and the drifts are 0. `unit` is the user's unit of time in units of the motion, and
     /// `factors` are the drifts of ℓ′ and y′ for a unit of Ψ.
     pub(crate) fn new(
-        ellipse: AveragedOrbit,
+        torque: AveragedTorque,
         frame: UnitQuaternion<f64>,
         place: &Place<pulp::Scalar>,
         (unit, factors): (f64, [f64; 2]),
     ) -> Self {
-        let second = ellipse.over_orbit();
+        let second = torque.over_orbit();
         let factors = if second.is_some() { factors } else { [1.0; 2] };
         let one = Lanes::splat(pulp::Scalar, 1.0);
         // The mean axis to first order, then again with the periodic part evaluated at the mean axis.
         let (mut start, mut phases) = (frame, [one; 2]);
         for _ in 0..EPOCH_STEPS {
             let (rotation, next) =
-                ellipse.periodic((second.as_ref(), factors), QuaternionLanes::all(one, &start), place);
+                torque.periodic((second.as_ref(), factors), QuaternionLanes::all(one, &start), place);
             let [x, y, z] = rotation.map(|lanes| 0.5 * lanes.values()[0]);
             start = UnitQuaternion::new_normalize(Quaternion::new(1.0, x, y, z)).inverse() * frame;
             phases = next;
         }
         let mean = match second {
-            Some(second) => MeanFrame::nodding(second, &ellipse, start, unit),
-            None => MeanFrame::steady(&ellipse, start, unit),
+            Some(second) => MeanFrame::nodding(second, &torque, start, unit),
+            None => MeanFrame::steady(&torque, start, unit),
         };
-        let (centre, per_radian) = (place.centre.values()[0], 1.0 / (ellipse.mean_motion * unit));
-        Self { ellipse, factors, mean, phases: phases.map(|lanes| lanes.values()[0]), centre, per_radian }
+        let (centre, per_radian) = (place.centre.values()[0], 1.0 / (torque.mean_motion * unit));
+        Self { torque, factors, mean, phases: phases.map(|lanes| lanes.values()[0]), centre, per_radian }
     }
 
     /// The memory of what is solved so far, in bytes.
@@ -130,12 +122,12 @@ impl Precession {
     ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         let all = |value: f64| elapsed.0.all(value);
         let by_anomaly = (place.centre - all(self.centre)).mul_add(all(self.per_radian), elapsed.0);
-        let (mean, mut drifts) = self.mean.at(&self.ellipse, (by_anomaly, elapsed.1));
+        let (mean, mut drifts) = self.mean.at(&self.torque, (by_anomaly, elapsed.1));
         let second = match &self.mean {
             MeanFrame::Steady { .. } => None,
             MeanFrame::Nodding(arcs) => Some(&arcs.equations.average),
         };
-        let (rotation, phases) = self.ellipse.periodic((second, self.factors), mean, place);
+        let (rotation, phases) = self.torque.periodic((second, self.factors), mean, place);
         for ((drift, phase), at_epoch) in drifts.iter_mut().zip(phases).zip(self.phases) {
             *drift = *drift + (phase - all(at_epoch));
         }
@@ -152,30 +144,30 @@ impl Precession {
 }
 
 impl MeanFrame {
-    fn steady(ellipse: &AveragedOrbit, frame: UnitQuaternion<f64>, unit: f64) -> Self {
+    fn steady(torque: &AveragedTorque, frame: UnitQuaternion<f64>, unit: f64) -> Self {
         let axis = frame * Vector3::z();
-        let cosine = axis.dot(&ellipse.axes[2]);
-        // dλ/dt = −(3/2) φn² Δ cos I/(M η³) = −½ n κ_o cos I.
-        let precessing = -0.5 * ellipse.strength * cosine * ellipse.mean_motion * unit;
+        let cosine = axis.dot(&torque.axes[2]);
+        // dλ/dt = −Γ Δ cos I/(M η³) = −½ n κ_o cos I.
+        let precessing = -0.5 * torque.precession * cosine * torque.mean_motion * unit;
         let [half, half_back] = [0.5, -0.5 * cosine].map(|part| Phase::new(DoubleDouble::from(part * precessing), 0.0));
-        Self::Steady { frame, half, half_back, secular: ellipse.secular(&axis) * unit }
+        Self::Steady { frame, half, half_back, secular: torque.secular(&axis) * unit }
     }
 
-    fn nodding(average: OverOrbit, ellipse: &AveragedOrbit, frame: UnitQuaternion<f64>, unit: f64) -> Self {
+    fn nodding(average: OverOrbit, torque: &AveragedTorque, frame: UnitQuaternion<f64>, unit: f64) -> Self {
         // The angular momentum turns by at most 1 rad in an arc.
-        let length = 1.0 / (average.fastest().max(SLOWEST_PRECESSION * ellipse.mean_motion) * unit);
+        let length = 1.0 / (average.fastest().max(SLOWEST_PRECESSION * torque.mean_motion) * unit);
         Self::Nodding(Box::new(Arcs::new(PrecessionEquations { average, unit, length }, &frame)))
     }
 
     #[inline(always)]
     fn at<S: InstructionSet>(
         &self,
-        ellipse: &AveragedOrbit,
+        torque: &AveragedTorque,
         elapsed: (Lanes<S>, Lanes<S>),
     ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         match self {
             Self::Steady { frame, half, half_back, secular } => {
-                let turn = QuaternionLanes::about(&ellipse.axes[2], half.sin_cos(elapsed));
+                let turn = QuaternionLanes::about(&torque.axes[2], half.sin_cos(elapsed));
                 let back = QuaternionLanes::about(&Vector3::z(), half_back.sin_cos(elapsed));
                 let phase = elapsed.0 * elapsed.0.all(*secular);
                 (turn * QuaternionLanes::all(elapsed.0, frame) * back, [phase; 2])
@@ -185,7 +177,7 @@ impl MeanFrame {
     }
 }
 
-impl AveragedOrbit {
+impl AveragedTorque {
     /// ⟨D⟩ + K2 averaged over the orbit with its periodic part, if the averaged equations are those of second order.
     pub(crate) fn over_orbit(&self) -> Option<OverOrbit> {
         let hamiltonian = self.second.as_deref()?;
@@ -220,7 +212,7 @@ impl AveragedOrbit {
     /// The periodic part of one orbit by W₁: a rotation in inertial components, and Ψ (theory (13)).
     #[inline(always)]
     fn first_order<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> ([Lanes<S>; 3], Lanes<S>) {
-        let Self { eccentricity, eta_cubed, mean_motion, axes, strength, .. } = self;
+        let Self { eccentricity, axes, phase, precession, .. } = self;
         let Place { sine, cosine, .. } = *place;
         let all = |value: f64| sine.all(value);
         let double = ComplexLanes { re: cosine, im: sine } * ComplexLanes { re: cosine, im: sine };
@@ -239,12 +231,12 @@ impl AveragedOrbit {
         let to_p = half * p.mul_add(constant + by_cosine, q * by_sine);
         let to_q = half * q.mul_add(constant - by_cosine, p * by_sine);
         let sum = p.mul_add(to_p, q * to_q);
-        let scale = all(*strength);
+        let scale = all(*precession);
         let mut turning = axis;
         for (c, component) in turning.iter_mut().enumerate() {
             let inside = to_p.mul_add(all(axes[0][c]), to_q * all(axes[1][c]));
             *component = scale * component.negate_mul_add(sum, inside);
         }
-        (turning, all(mean_motion / eta_cubed) * sum.negate_mul_add(all(3.0), constant))
+        (turning, all(*phase) * sum.negate_mul_add(all(3.0), constant))
     }
 }

@@ -6,11 +6,10 @@ use std::sync::{Arc, LazyLock};
 use nalgebra::UnitQuaternion;
 
 use super::arcs::{Chain, MOST};
-use super::averaged_orbit::AveragedOrbit;
-use super::polynomial::{AtPoints, AveragedEquations, COLUMNS, Column, NODES, PiecePolynomial, column_slopes, pole};
+use super::equations::{AveragedTorque, OnPiece};
+use super::polynomial::{AtPoints, COLUMNS, Column, NODES, PiecePolynomial};
 use crate::gravity_gradient::constants::FASTEST_IN_QUARTERS;
-use crate::gravity_gradient::orbit::elliptic_motion::When;
-use crate::gravity_gradient::second_order::k2::{DisturberLanes, across, dot};
+use crate::orbit::position::Position;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
@@ -20,13 +19,6 @@ const FEWEST_PIECES: i64 = 4;
 /// Number of quarters that are kept on each side of the epoch, 0.8 kB each; of eighths twice as many.
 pub(crate) const MOST_QUARTERS: usize = 1 << 18;
 const _: () = assert!(2 * MOST_QUARTERS < MOST);
-
-/// The averaged equations at the points of a piece of the orbit, by true anomaly.
-struct Piece<'a> {
-    ellipse: &'a AveragedOrbit,
-    sine: &'a AtPoints,
-    cosine: &'a AtPoints,
-}
 
 /// The sines and the cosines of the true anomalies at the points, by piece, for [`FEWEST_PIECES`] and for twice as many.
 static CIRCLES: LazyLock<[Vec<[AtPoints; 2]>; 2]> = LazyLock::new(|| {
@@ -40,46 +32,10 @@ static CIRCLES: LazyLock<[Vec<[AtPoints; 2]>; 2]> = LazyLock::new(|| {
     })
 });
 
-impl AveragedEquations for Piece<'_> {
-    #[inline(always)]
-    fn at<S: InstructionSet>(&self, first: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS] {
-        let AveragedOrbit { eccentricity, eta_cubed, mean_motion, axes, strength, .. } = self.ellipse;
-        let like = frame.0[0];
-        let all = |value: f64| like.all(value);
-        let (sine, cosine) = (like.like(&self.sine[first..]), like.like(&self.cosine[first..]));
-        let mut direction = [like; 3];
-        for (c, component) in direction.iter_mut().enumerate() {
-            *component = cosine.mul_add(all(axes[0][c]), sine * all(axes[1][c]));
-        }
-        let weight = cosine.mul_add(all(*eccentricity), all(1.0));
-        let axis = pole(frame);
-        let along = dot(&axis, &direction);
-        let (turning, phases) = match &self.ellipse.second {
-            Some(hamiltonian) => {
-                let square = weight * weight;
-                let disturber = DisturberLanes {
-                    direction,
-                    normal: axes[2],
-                    cube: square * weight * all(1.0 / (eta_cubed * eta_cubed)),
-                    rate: square * all(mean_motion / eta_cubed),
-                };
-                let ([x, y, z], phases) = hamiltonian.slopes_at(&axis, &disturber);
-                let inverse = disturber.rate.reciprocal();
-                ([x * inverse, y * inverse, z * inverse], [phases[0] * inverse, phases[1] * inverse])
-            }
-            None => {
-                let phase = weight * all(mean_motion / eta_cubed) * (along * along).negate_mul_add(all(3.0), all(1.0));
-                (across(direction, &axis, weight * along * all(*strength)), [phase, phase])
-            }
-        };
-        column_slopes(frame, turning, phases)
-    }
-}
-
 /// The averaged motion, solved for each piece of the orbit: quarters, or eighths if the precession is fast.
 #[derive(Clone, Debug)]
 pub(crate) struct Spin {
-    ellipse: AveragedOrbit,
+    torque: AveragedTorque,
     /// Number of pieces of an orbit.
     count: i64,
     /// The piece that contains the epoch, counted from the pericentre before the epoch.
@@ -91,14 +47,14 @@ pub(crate) struct Spin {
 
 impl Spin {
     /// From the frame at a place of the orbit, where Ψ and the drifts are 0.
-    pub(crate) fn new(ellipse: AveragedOrbit, frame: UnitQuaternion<f64>, when: &When<pulp::Scalar>) -> Self {
-        let fast = ellipse.strength.abs() * (1.0 + ellipse.eccentricity) > FASTEST_IN_QUARTERS;
+    pub(crate) fn new(torque: AveragedTorque, frame: UnitQuaternion<f64>, when: &Position<pulp::Scalar>) -> Self {
+        let fast = torque.precession.abs() * (1.0 + torque.eccentricity) > FASTEST_IN_QUARTERS;
         let count = if fast { 2 * FEWEST_PIECES } else { FEWEST_PIECES };
         let (number, inside) = piece(count, when);
         let (first, inside) = (number.values()[0] as i64, inside.values()[0]);
         let start: Column = [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0];
-        let epoch = in_piece(&ellipse, (count, first), inside, &start);
-        Self { ellipse, count, first, epoch, kept: Arc::default() }
+        let epoch = in_piece(&torque, (count, first), inside, &start);
+        Self { torque, count, first, epoch, kept: Arc::default() }
     }
 
     /// The memory of the pieces that are solved, in bytes.
@@ -108,7 +64,7 @@ impl Spin {
 
     /// Times in the same piece are evaluated together.
     #[inline(always)]
-    pub(crate) fn at<S: InstructionSet>(&self, when: &When<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
+    pub(crate) fn at<S: InstructionSet>(&self, when: &Position<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         let (number, inside) = piece(self.count, when);
         let pieces = number.values();
         // The bound of the motion keeps the numbers within 2 MOST_QUARTERS.
@@ -144,7 +100,7 @@ impl Spin {
         self.kept[side].get_or_compute(index, |index, last| {
             let start = last.unwrap_or(&self.epoch).at(end);
             let number = self.first + step * (index as i64 + 1);
-            in_piece(&self.ellipse, (self.count, number), -end, &start)
+            in_piece(&self.torque, (self.count, number), -end, &start)
         })
     }
 }
@@ -152,7 +108,7 @@ impl Spin {
 /// The number of the piece of so many in an orbit, counted from the pericentre before the epoch, and the place in it from −1 to 1. At the end of a piece rounding
 /// decides between it and the next one, and the place may exceed ±1 by rounding.
 #[inline(always)]
-fn piece<S: InstructionSet>(count: i64, when: &When<S>) -> (Lanes<S>, Lanes<S>) {
+fn piece<S: InstructionSet>(count: i64, when: &Position<S>) -> (Lanes<S>, Lanes<S>) {
     let all = |value: f64| when.turns.all(value);
     let pieces = when.place.angle * all(count as f64 / TAU);
     let part = (pieces - all(0.5)).rounded();
@@ -160,8 +116,8 @@ fn piece<S: InstructionSet>(count: i64, when: &When<S>) -> (Lanes<S>, Lanes<S>) 
 }
 
 /// The solution in a piece that passes through `start` at a place of the piece.
-fn in_piece(ellipse: &AveragedOrbit, (count, number): (i64, i64), place: f64, start: &Column) -> PiecePolynomial {
+fn in_piece(torque: &AveragedTorque, (count, number): (i64, i64), place: f64, start: &Column) -> PiecePolynomial {
     let circles = &CIRCLES[usize::from(count != FEWEST_PIECES)];
     let [sine, cosine] = &circles[number.rem_euclid(count) as usize]; // 0 ≤ number < count
-    PiecePolynomial::solved(PI / count as f64, (place, start), &Piece { ellipse, sine, cosine })
+    PiecePolynomial::solved(PI / count as f64, (place, start), &OnPiece { torque, sine, cosine })
 }

@@ -1,5 +1,4 @@
 //! The body: its inertia tensor in the invariable frame as Fourier series, and the attitude by the Cayley–Klein parameters.
 
 pub(crate) mod cayley_klein;
-pub(crate) mod contraction;
 pub(crate) mod inertia;

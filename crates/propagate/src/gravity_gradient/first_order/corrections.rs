@@ -25,15 +25,15 @@ use super::sums::TermSums;
 use crate::error::{Error, TorqueMeasure};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::constants::{LARGEST_SIZE, SMALLEST_COEFFICIENT};
-use crate::gravity_gradient::orbit::derivatives::ORDERS;
-use crate::gravity_gradient::orbit::elliptic_motion::fixed;
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
+use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::terms::regime::{Regime, Regimes, Terms};
 use crate::gravity_gradient::terms::term::Sensitivity;
 use crate::gravity_gradient::terms::term::SizedTerm;
 use crate::numerics::C64;
+use crate::orbit::derivatives::ORDERS;
+use crate::orbit::kepler::Place;
+use crate::orbit::position::fixed;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
-use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
 /// The generating function of one mean motion.
@@ -64,7 +64,7 @@ impl Corrections {
     /// # Errors
     /// - [`Error::Resonance`] if a resonant term has an effect that cannot be corrected.
     /// - [`Error::TorqueTooStrong`] if the corrections are not small.
-    pub(crate) fn new(inertia: &Inertia, elliptic: &EllipticOrbit<'_>) -> Result<Self, Error> {
+    pub(crate) fn new(inertia: &Inertia, elliptic: &Disturbance<'_>) -> Result<Self, Error> {
         let terms = Terms::new(inertia, elliptic);
         Self::of(&terms, inertia, elliptic, terms.size)
     }
@@ -73,12 +73,7 @@ impl Corrections {
     ///
     /// # Errors
     /// As [`Corrections::new`].
-    pub(crate) fn of(
-        terms: &Terms,
-        inertia: &Inertia,
-        elliptic: &EllipticOrbit<'_>,
-        whole: f64,
-    ) -> Result<Self, Error> {
+    pub(crate) fn of(terms: &Terms, inertia: &Inertia, elliptic: &Disturbance<'_>, whole: f64) -> Result<Self, Error> {
         if whole > LARGEST_SIZE {
             let measure = TorqueMeasure::Corrections;
             return Err(Error::TorqueTooStrong { measure, size: whole, bound: LARGEST_SIZE });
@@ -152,7 +147,7 @@ impl Collected {
         term: &SizedTerm,
         regime: &Regime,
         inertia: &Inertia,
-        (regimes, elliptic): (&Regimes<'_>, &EllipticOrbit<'_>),
+        (regimes, elliptic): (&Regimes<'_>, &Disturbance<'_>),
     ) {
         let growth = regimes.growth(term.term.multiple);
         match (*regime, &elliptic.series) {
@@ -185,12 +180,12 @@ impl Collected {
     }
 
     /// The generating function, without coefficients of the time derivatives that are negligible.
-    fn generator(&mut self, inertia: &Inertia, (regimes, elliptic): (&Regimes<'_>, &EllipticOrbit<'_>)) -> Generator {
+    fn generator(&mut self, inertia: &Inertia, (regimes, elliptic): (&Regimes<'_>, &Disturbance<'_>)) -> Generator {
         let bounds = self.amplitudes.map(|amplitude| SMALLEST_COEFFICIENT * regimes.nothing / amplitude);
         let (orbital, cut) = elliptic.envelope.orbital.cut(&bounds[..self.orders]);
         let cut: f64 = cut.iter().zip(&self.amplitudes).map(|(cut, amplitude)| cut * amplitude).sum();
         self.dropped += 2.0 * regimes.growth(1) * cut;
-        let [first, second, _] = elliptic.axes;
+        let [first, second, _] = elliptic.path.axes;
         let factors =
             TorqueScale { strength: elliptic.strength(), root: inertia.sigma.sqrt(), momentum: inertia.momentum };
         let (sums, exact) = (std::mem::take(&mut self.sums), std::mem::take(&mut self.exact));
@@ -199,7 +194,7 @@ impl Collected {
 }
 
 /// The parts of ⟨T33⟩ and of its slope that the level omits, times the mass fraction over M.
-fn axial_omitted(inertia: &Inertia, elliptic: &EllipticOrbit<'_>) -> [f64; 2] {
+fn axial_omitted(inertia: &Inertia, elliptic: &Disturbance<'_>) -> [f64; 2] {
     let per_momentum = elliptic.orbit.disturbing_fraction() / inertia.momentum;
     let (axial, slope) = elliptic.level.omitted(inertia, 0, 0);
     [axial, slope].map(|part| part.abs() * per_momentum)

@@ -16,8 +16,8 @@
 use std::f64::consts::TAU;
 
 use crate::gravity_gradient::constants::SERIES_BELOW;
-use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::divisors::Divisors;
+use crate::orbit::hansen::OrbitSeries;
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;

@@ -15,18 +15,19 @@ use std::f64::consts::TAU;
 
 use pulp::NullaryFnOnce;
 
-use super::deviator::{Contracted, Products, axial_contractions, contractions};
 use super::epoch_solution::{EpochSolution, PARTS};
 use super::sums::{GeneratorSlopes, SUMS};
 use crate::gravity_gradient::body::inertia::Inertia;
-use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::divisors::Divisors;
 use crate::gravity_gradient::terms::term::SizedTerm;
+use crate::orbit::hansen::OrbitSeries;
+use crate::orbit::kepler::Place;
+use crate::orbit::tensor::Products;
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
-use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use crate::simd::sincos::sin_cos_of_turns;
+use crate::torque::{Contracted, axial_contractions, contractions};
 
 /// One term.
 #[derive(Clone, Debug)]

@@ -8,15 +8,15 @@
 
 use nalgebra::Vector3;
 
-use super::deviator::{Deviator, Products, deviator_of, products, turned};
 use super::fourier::{ExactTerm, ExactTerms};
 use super::sums::{GeneratorSlopes, TermSums};
 use crate::gravity_gradient::body::inertia::HIGHEST;
-use crate::gravity_gradient::orbit::derivatives::{AnomalyPowers, ORDERS, Orbital};
-use crate::gravity_gradient::orbit::elliptic_motion::{Axes, fixed};
+use crate::orbit::derivatives::{AnomalyPowers, Orbital};
+use crate::orbit::kepler::Place;
+use crate::orbit::position::Axes;
+use crate::orbit::tensor::{deviator_of, products};
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
-use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use crate::simd::unit_powers::UnitPowers;
 
@@ -110,7 +110,7 @@ impl Generator {
                 sums.add_all(&self.sums, turns, j, &tensor);
             }
         } else {
-            let tensors = self.tensors_of(&products, node, place);
+            let tensors = self.orbital.tensors(&products, node, place);
             for (j, tensor) in tensors.iter().enumerate().take(self.orbital.orders()) {
                 sums.add_all(&self.sums, turns, j, tensor);
             }
@@ -121,42 +121,6 @@ impl Generator {
             sums = none.simd().vectorize(terms);
         }
         self.change(&sums, mean.spin)
-    }
-
-    /// The traceless part of (a/r)³ r̂r̂ and its time derivatives in the frame, for the orbit's axes at the epoch.
-    #[inline(always)]
-    pub(crate) fn tensors<S: InstructionSet>(
-        &self,
-        frame: QuaternionLanes<S>,
-        place: &Place<S>,
-    ) -> [Deviator<S>; ORDERS] {
-        let straight = ComplexLanes { re: place.sine.all(1.0), im: place.sine.all(0.0) };
-        let (products, node) = products(frame, &fixed(&self.axes, place.sine), straight);
-        self.tensors_of(&products, node, place)
-    }
-
-    #[inline(always)]
-    fn tensors_of<S: InstructionSet>(
-        &self,
-        products: &Products<S>,
-        [x, y, z]: [Lanes<S>; 3],
-        place: &Place<S>,
-    ) -> [Deviator<S>; ORDERS] {
-        let none = x.all(0.0);
-        let mut room = AnomalyPowers::new(place.turn());
-        let circle = room.of(place.turn(), self.orbital.multiples());
-        let mut tensors = [[none; 5]; ORDERS];
-        let orders = self.orbital.orders().min(ORDERS);
-        let [mut power, growth] = self.orbital.powers(place.cosine);
-        for (j, tensor) in tensors.iter_mut().enumerate().take(orders) {
-            *tensor = deviator_of(self.orbital.derivative(j, circle, power), products);
-            power = power * growth;
-        }
-        if self.orbital.node_rate != 0.0 {
-            let rate = x.all(self.orbital.node_rate);
-            turned(&mut tensors, orders, [x * rate, y * rate, z * rate]);
-        }
-        tensors
     }
 
     #[inline(always)]

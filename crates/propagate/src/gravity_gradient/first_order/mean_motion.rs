@@ -5,9 +5,10 @@ use super::mean_variables::{Mean, PeriodicChange};
 use crate::error::{Error, TorqueMeasure};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::constants::{CONVERGED, LARGEST_CONTRACTION, STRONGEST};
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
+use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::terms::regime::Terms;
-use crate::input::orbit::Orbit;
+use crate::orbit::elements::Orbit;
+use crate::torque::strength_for;
 use crate::torque_free::polhode::Polhode;
 
 /// Largest number of iterations for the mean variables.
@@ -24,14 +25,14 @@ pub(crate) struct MeanMotion {
 }
 
 /// The corrections for each body at a mean motion.
-fn corrections_of(inertia: &Inertia, orbits: &[EllipticOrbit<'_>]) -> Result<Vec<Corrections>, Error> {
+fn corrections_of(inertia: &Inertia, orbits: &[Disturbance<'_>]) -> Result<Vec<Corrections>, Error> {
     let all: Vec<_> = orbits.iter().map(|elliptic| Terms::new(inertia, elliptic)).collect();
     let whole = all.iter().map(|terms| terms.size).sum();
     all.iter().zip(orbits).map(|(terms, elliptic)| Corrections::of(terms, inertia, elliptic, whole)).collect()
 }
 
 /// The mean variables whose corrections give a state, by fixed-point iteration.
-pub(crate) fn first_order(polhode: &Polhode, state: &Mean, orbits: &[EllipticOrbit<'_>]) -> Result<MeanMotion, Error> {
+pub(crate) fn first_order(polhode: &Polhode, state: &Mean, orbits: &[Disturbance<'_>]) -> Result<MeanMotion, Error> {
     let (mut mean, mut change) = (*state, PeriodicChange::default());
     let (mut step, mut first) = (0, 0.0_f64);
     let mut inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
@@ -73,13 +74,13 @@ pub(crate) fn first_order(polhode: &Polhode, state: &Mean, orbits: &[EllipticOrb
 pub(crate) fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f64 {
     let [first, _, third] = polhode.moments;
     let product = first.max(third) * (first - third).abs();
-    orbit.torque_strength_for(rate) * product / (1.0 - orbit.eccentricity()).powi(3)
+    strength_for(orbit, rate) * product / (1.0 - orbit.eccentricity()).powi(3)
 }
 
 /// Checks that the torques are weak enough for first order.
-pub(crate) fn weak_enough(polhode: &Polhode, sigma: f64, orbits: &[EllipticOrbit<'_>]) -> Result<(), Error> {
+pub(crate) fn weak_enough(polhode: &Polhode, sigma: f64, orbits: &[Disturbance<'_>]) -> Result<(), Error> {
     let momentum = polhode.invariants.momentum.to_f64();
-    let size = |elliptic: &EllipticOrbit<'_>| {
+    let size = |elliptic: &Disturbance<'_>| {
         let share = elliptic.envelope.span[0] / elliptic.envelope.most[0];
         share * strongest_torque(polhode, elliptic.orbit, elliptic.mean_motion / momentum)
     };

@@ -1,7 +1,6 @@
 //! First order in the torque: the generating function W, the short-period corrections, and the mean motion from which they lead to a state.
 
 pub(crate) mod corrections;
-pub(crate) mod deviator;
 mod epoch_solution;
 pub(crate) mod fourier;
 pub(crate) mod generator;

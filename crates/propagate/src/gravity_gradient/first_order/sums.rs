@@ -1,11 +1,12 @@
 //! Sums over the terms of one m, by time derivative, and what each term adds to them.
 
-use super::deviator::{Contracted, Deviator, axial_contractions, contractions};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::terms::term::{SizedTerm, Term};
+use crate::orbit::tensor::Deviator;
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
+use crate::torque::{Contracted, axial_contractions, contractions};
 
 /// Number of sums over the terms: W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
 pub(crate) const SUMS: usize = 4;

@@ -12,9 +12,9 @@
 
 use super::k2::{Hamiltonian, across, dot, in_lanes};
 use super::k2_remainder::SteadyRates;
+use crate::orbit::kepler::Place;
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
-use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use nalgebra::Vector3;
 

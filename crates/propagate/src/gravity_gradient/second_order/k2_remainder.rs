@@ -13,14 +13,15 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::gravity_gradient::body::contraction::{Contraction, coefficients, contraction, factors, with_turns};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::constants::{CUTOFF, NEAREST_IN_K2};
+use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
-use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::term::Term;
 use crate::numerics::C64;
+use crate::orbit::hansen::OrbitSeries;
+use crate::orbit::tensor::{about_first, about_second, products_at};
+use crate::torque::{Contraction, contraction};
 
 /// Constant rates by K2.
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,11 +37,11 @@ impl SteadyRates {
     pub(crate) fn new(
         inertia: &Inertia,
         frame: &UnitQuaternion<f64>,
-        elliptic: &EllipticOrbit<'_>,
+        elliptic: &Disturbance<'_>,
         terms: (&[ExactTerm], &[Term]),
     ) -> Self {
         let rates = |series: &OrbitSeries| {
-            Remainder::new(inertia, frame, (elliptic, series), terms).rates(inertia, frame, &elliptic.axes[2])
+            Remainder::new(inertia, frame, (elliptic, series), terms).rates(inertia, frame, &elliptic.path.axes[2])
         };
         elliptic.series.as_ref().map(rates).unwrap_or_default()
     }
@@ -60,7 +61,7 @@ impl Remainder {
     pub(crate) fn new(
         inertia: &Inertia,
         frame: &UnitQuaternion<f64>,
-        (elliptic, series): (&EllipticOrbit<'_>, &OrbitSeries),
+        (elliptic, series): (&Disturbance<'_>, &OrbitSeries),
         (exact, summed): (&[ExactTerm], &[Term]),
     ) -> Self {
         let divisors = |term: &Term| {
@@ -70,10 +71,10 @@ impl Remainder {
         let slow = exact.iter().filter(|term| term.divisors.slow);
         let slow = slow.map(|term| (Term::new(inertia, term.numbers.0, term.numbers.1), Some(&term.divisors)));
         let terms: Vec<_> = slow.chain(summed.iter().map(|term| (*term, divisors(term)))).collect();
-        let [first, second, _] = elliptic.orbit.axes().map(|axis| frame.inverse() * axis);
-        let tensors = factors([first, second]).map(|tensor| with_turns(&tensor));
+        let (tensors, _) = products_at(frame, elliptic.orbit.axes());
+        let tensors = tensors.map(|tensor| [tensor, about_first(&tensor), about_second(&tensor)]);
         let of_harmonic = |multiple: i32, j: i32| {
-            let coefficients = coefficients(&series.coefficients[j.unsigned_abs() as usize], f64::from(j));
+            let coefficients = series.at(j);
             geometry(&std::array::from_fn(|turn| {
                 let parts = tensors.each_ref().map(|tensors| contraction(&tensors[turn], multiple));
                 std::array::from_fn(|i| coefficients.iter().zip(&parts).map(|(c, part)| c * part[i]).sum())

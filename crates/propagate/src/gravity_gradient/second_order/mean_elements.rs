@@ -8,15 +8,15 @@ use super::pairs::{Actions, OrbitParts, second_actions};
 use crate::error::Error;
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::constants::CUTOFF;
+use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
 use crate::gravity_gradient::first_order::mean_variables::{Mean, PeriodicChange};
-use crate::gravity_gradient::orbit::elliptic_motion::When;
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::terms::term::{Term, fast_terms, slow_limit, slow_terms};
 use crate::input::options::Level;
 use crate::numerics::C64;
+use crate::orbit::position::Position;
 use crate::torque_free::polhode::Polhode;
 
 /// A mean state at the epoch.
@@ -41,8 +41,8 @@ impl SecondOrderData {
     pub(crate) fn new(
         first: &MeanMotion,
         state: &Mean,
-        start: &When<pulp::Scalar>,
-        elliptic: &EllipticOrbit<'_>,
+        start: &Position<pulp::Scalar>,
+        elliptic: &Disturbance<'_>,
     ) -> Self {
         let MeanMotion { mean, change, inertia, corrections } = first;
         let exact = &corrections[0].generator.exact[..];
@@ -85,7 +85,7 @@ impl SecondOrderData {
         &self,
         polhode: &Polhode,
         first: &MeanMotion,
-        elliptic: &EllipticOrbit<'_>,
+        elliptic: &Disturbance<'_>,
         level: Level,
     ) -> Result<(MeanMotion, SteadyRates, [f64; 2]), Error> {
         let EpochMean { mean, momentum, left } = self.both[usize::from(level == Level::SecondOrder)];
@@ -97,7 +97,7 @@ impl SecondOrderData {
 }
 
 /// ⟨D⟩ + K2 at a mean motion.
-pub(crate) fn hamiltonian(inertia: &Inertia, elliptic: &EllipticOrbit<'_>, steady: SteadyRates) -> Hamiltonian {
+pub(crate) fn hamiltonian(inertia: &Inertia, elliptic: &Disturbance<'_>, steady: SteadyRates) -> Hamiltonian {
     let terms = fast_terms(inertia, CUTOFF, slow_limit(elliptic));
     Hamiltonian { steady, ..Hamiltonian::new(inertia, &terms, elliptic.strength()) }
 }

@@ -7,15 +7,16 @@
 //! over the span on either side, the error of the attitude was four times as large in scenes without a resonance, because the corrections take the regular harmonics as a
 //! whole.
 
-use crate::gravity_gradient::body::contraction::{Contraction, coefficients, contraction, factors};
 use crate::gravity_gradient::constants::SUMMED_ABOVE;
+use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::terms::divisors::Divisors;
 use crate::gravity_gradient::terms::term::slow_limit;
 use crate::numerics::C64;
-use crate::simd::kepler::Place;
+use crate::orbit::kepler::Place;
+use crate::orbit::tensor::products_at;
+use crate::torque::{Contraction, contraction};
 
 /// The factors of f in the functions of the series.
 const TURNS: [i32; 3] = [0, 2, -2];
@@ -106,19 +107,17 @@ pub(crate) struct OrbitHarmonics {
 
 impl OrbitHarmonics {
     /// The series in the frame of a mean state, if the orbit has one.
-    pub(crate) fn new(mean: &Mean, place: &Place<pulp::Scalar>, elliptic: &EllipticOrbit<'_>) -> Option<Self> {
-        let series = &elliptic.series.as_ref()?.coefficients;
-        let count = series.len() - 1;
+    pub(crate) fn new(mean: &Mean, place: &Place<pulp::Scalar>, elliptic: &Disturbance<'_>) -> Option<Self> {
+        let series = elliptic.series.as_ref()?;
+        let count = series.coefficients.len() as i32 - 1;
         let at = place.angle.values()[0] - place.centre.values()[0];
-        let waves = (0..=2 * count).map(|i| {
-            let j = i as f64 - count as f64;
-            let turn = C64::from_polar(1.0, j * at);
-            let [one, cosine, sine] = coefficients(&series[i.abs_diff(count)], j);
+        let waves = (-count..=count).map(|j| {
+            let turn = C64::from_polar(1.0, f64::from(j) * at);
+            let [one, cosine, sine] = series.at(j);
             let [even, odd] = [cosine, C64::i() * sine];
             [one, even + odd, even - odd].map(|coefficient| turn * coefficient)
         });
-        let [first, second, _] = elliptic.orbit.axes().map(|axis| mean.frame.inverse() * axis);
-        let tensors = factors([first, second]);
+        let (tensors, _) = products_at(&mean.frame, elliptic.orbit.axes());
         Some(Self {
             waves: waves.collect(),
             contracted: [0, 1, 2].map(|m| {
@@ -221,21 +220,20 @@ mod tests {
     use nalgebra::{UnitQuaternion, Vector3};
 
     use super::*;
-    use crate::gravity_gradient::body::contraction::SymmetricTensor;
-    use crate::gravity_gradient::orbit::elliptic_orbit::whole;
+    use crate::gravity_gradient::disturbance::whole;
     use crate::gravity_gradient::second_order::pair_terms::tensors;
     use crate::gravity_gradient::terms::divisors::AverageShift;
-    use crate::input::orbit::Orbit;
+    use crate::orbit::elements::Orbit;
     use crate::simd::lanes::Lanes;
 
     const MEAN_MOTION: f64 = 0.02;
 
     /// Calls `with` with a state and an orbit of many harmonics.
-    fn on_orbit<R>(eccentricity: f64, duration: f64, with: impl FnOnce(&Mean, &EllipticOrbit<'_>) -> R) -> R {
+    fn on_orbit<R>(eccentricity: f64, duration: f64, with: impl FnOnce(&Mean, &Disturbance<'_>) -> R) -> R {
         let orbit =
             Orbit::new(MEAN_MOTION, eccentricity).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
         let frame = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1);
-        let elliptic = EllipticOrbit { duration, ..whole(&orbit, frame * Vector3::z()) };
+        let elliptic = Disturbance { duration, ..whole(&orbit, frame * Vector3::z()) };
         with(&Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame }, &elliptic)
     }
 
@@ -244,7 +242,7 @@ mod tests {
         on_orbit(eccentricity, duration, |mean, elliptic| solutions_at(mean, elliptic, omega, multiple))
     }
 
-    fn solutions_at(mean: &Mean, elliptic: &EllipticOrbit<'_>, omega: f64, multiple: i32) -> [C64; 2] {
+    fn solutions_at(mean: &Mean, elliptic: &Disturbance<'_>, omega: f64, multiple: i32) -> [C64; 2] {
         let eccentricity = elliptic.orbit.eccentricity();
         let frame = mean.frame;
         let place = |anomaly: f64| Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
@@ -259,7 +257,8 @@ mod tests {
                 let to_body = first * cosine + second * sine;
                 let cube = ((1.0 + eccentricity * cosine) / (1.0 - eccentricity * eccentricity)).powi(3);
                 let [x, y, z] = to_body.into();
-                let tensor: SymmetricTensor = [x * x, y * y, z * z, x * y, x * z, y * z].map(|part: f64| cube * part);
+                let tensor = [z * z - 0.5 * (x * x + y * y), y * y - x * x, x * y, x * z, y * z];
+                let tensor = tensor.map(|part: f64| Lanes::splat(pulp::Scalar, cube * part));
                 C64::from_polar(1.0, -omega * period * back) * contraction(&tensor, multiple)[0]
             })
             .sum();

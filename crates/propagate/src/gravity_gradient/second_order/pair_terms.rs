@@ -1,47 +1,36 @@
 //! The terms of the sum over pairs at one state: their amplitudes, those of the generating function, and the bracket of two.
 
 use super::pair_harmonics::{ContractedPart, Near, Parts};
-use crate::gravity_gradient::body::contraction::{Contraction, SymmetricTensor, contraction};
 use crate::gravity_gradient::body::inertia::Inertia;
-use crate::gravity_gradient::first_order::generator::{Generator, TorqueScale};
+use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
-use crate::gravity_gradient::orbit::derivatives::ORDERS;
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::terms::term::Term;
 use crate::numerics::C64;
-use crate::simd::complex_quaternion::QuaternionLanes;
-use crate::simd::kepler::Place;
-use crate::simd::lanes::Lanes;
+use crate::orbit::derivatives::ORDERS;
+use crate::orbit::kepler::Place;
+use crate::orbit::tensor::{Deviator, products_at};
+use crate::torque::{Contraction, contraction};
 
 /// The state at which the sum is taken.
 #[derive(Clone, Copy)]
 pub(crate) struct Stand<'a> {
     pub(crate) inertia: &'a Inertia,
     pub(crate) mean: &'a Mean,
-    pub(crate) elliptic: &'a EllipticOrbit<'a>,
+    pub(crate) elliptic: &'a Disturbance<'a>,
     /// Mean anomaly of the disturbing body at the epoch \[rad\].
     pub(crate) anomaly: f64,
     /// The traceless part of (a/r)³ r̂r̂ in the frame, and its time derivatives.
-    pub(crate) tensors: [SymmetricTensor; ORDERS],
+    pub(crate) tensors: [Deviator<pulp::Scalar>; ORDERS],
 }
 
 /// The traceless part of (a/r)³ r̂r̂ in the frame of a mean state, and its time derivatives, as a function of the place of the disturbing body.
 pub(crate) fn tensors(
     mean: &Mean,
-    elliptic: &EllipticOrbit<'_>,
-) -> impl Fn(&Place<pulp::Scalar>) -> [SymmetricTensor; ORDERS] + use<> {
-    let [first, second, _] = elliptic.orbit.axes();
-    let factors = TorqueScale { strength: 0.0, root: 0.0, momentum: mean.momentum };
-    let orbit = (elliptic.envelope.orbital.clone(), [first, second]);
-    let generator = Generator::new(Default::default(), Vec::new(), orbit, factors);
-    let frame = QuaternionLanes::all(Lanes::splat(pulp::Scalar, 0.0), &mean.frame);
-    move |place| {
-        generator.tensors(frame, place).map(|deviator| {
-            let [axial, across, xy, xz, yz] = deviator.map(|lanes| lanes.values()[0]);
-            let transverse = -axial / 3.0;
-            [transverse - 0.5 * across, transverse + 0.5 * across, -2.0 * transverse, xy, xz, yz]
-        })
-    }
+    elliptic: &Disturbance<'_>,
+) -> impl Fn(&Place<pulp::Scalar>) -> [Deviator<pulp::Scalar>; ORDERS] + use<> {
+    let (products, node) = products_at(&mean.frame, elliptic.orbit.axes());
+    let orbital = elliptic.envelope.orbital.clone();
+    move |place| orbital.tensors(&products, node, place)
 }
 
 /// One term, or ⟨D⟩.
@@ -70,7 +59,7 @@ impl<'a> Stand<'a> {
         inertia: &'a Inertia,
         mean: &'a Mean,
         place: &Place<pulp::Scalar>,
-        elliptic: &'a EllipticOrbit<'a>,
+        elliptic: &'a Disturbance<'a>,
     ) -> Self {
         let anomaly = place.angle.values()[0] - place.centre.values()[0];
         Self { inertia, mean, elliptic, anomaly, tensors: tensors(mean, elliptic)(place) }
@@ -187,7 +176,8 @@ impl PairTerm {
     /// 2⟨D⟩. The source of a pair with ⟨D⟩ is [⟨D⟩, W_b], without the factor ½ of R_ab = ½ [D_a, W_b].
     pub(crate) fn average(stand: &Stand<'_>) -> Self {
         let function = Term::average(stand.inertia);
-        let part = |tensor: &SymmetricTensor| ContractedPart { value: contraction(tensor, 0), slope: C64::default() };
+        let part =
+            |tensor: &Deviator<pulp::Scalar>| ContractedPart { value: contraction(tensor, 0), slope: C64::default() };
         Self {
             harmonic: 0.0,
             multiple: 0.0,

@@ -7,14 +7,14 @@ use std::f64::consts::{PI, TAU};
 
 use super::pair_harmonics::{Near, Parts, Split, inverse, unreturned};
 use super::pair_terms::{PairTerm, Stand, tensors};
-use crate::gravity_gradient::body::contraction::contraction;
 use crate::gravity_gradient::constants::{CUTOFF, MOST_POINTS, SOURCE_CHANGE, SOURCE_MARGIN};
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
-use crate::gravity_gradient::orbit::hansen::{at_most, decay};
+use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::terms::term::{Term, slow_limit};
 use crate::numerics::C64;
-use crate::simd::kepler::Place;
+use crate::orbit::hansen::{at_most, decay};
+use crate::orbit::kepler::Place;
 use crate::simd::lanes::Lanes;
+use crate::torque::contraction;
 
 /// R of all pairs with the same h and m.
 #[derive(Clone, Copy)]
@@ -47,7 +47,7 @@ impl PairSum {
 
     /// Whether the harmonics of the orbit are needed, and are not too many. On a circle they are few, and better than the sum over time derivatives.
     pub(crate) fn needs(&self, stand: &Stand<'_>) -> bool {
-        let EllipticOrbit { orbit, series, ledger, duration, .. } = stand.elliptic;
+        let Disturbance { orbit, series, ledger, duration, .. } = stand.elliptic;
         let slow = self.frequency.abs() <= stand.slow_limit();
         let by_sum = if slow || orbit.eccentricity() == 0.0 { self.sum_error(stand) } else { 0.0 };
         let [h, m] = self.numbers.map(f64::abs);
@@ -64,7 +64,7 @@ impl PairSum {
         if self.frequency.abs() <= stand.slow_limit() {
             return 0.0;
         }
-        let EllipticOrbit { orbit, mean_motion, duration, .. } = stand.elliptic;
+        let Disturbance { orbit, mean_motion, duration, .. } = stand.elliptic;
         let number = (self.frequency / mean_motion).abs().round();
         let distance = (self.frequency.abs() - number * mean_motion).abs();
         let size = self.size(stand) * stand.closest().powi(2) * at_most(orbit.eccentricity(), number, 2);

@@ -14,7 +14,8 @@
 use super::term::Term;
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::constants::{MOST_SHIFT, SINGLE_BELOW};
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
+use crate::gravity_gradient::disturbance::Disturbance;
+use crate::orbit::position::eta;
 
 /// The shift of the frequencies by the average torque.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,9 +27,9 @@ pub(crate) struct AverageShift {
 }
 
 impl AverageShift {
-    pub(crate) fn new(inertia: &Inertia, orbit: &EllipticOrbit<'_>) -> Self {
-        let (normal, pole) = (orbit.axes[2], orbit.pole);
-        let scale = orbit.strength() * orbit.eta.powi(-3) / inertia.momentum;
+    pub(crate) fn new(inertia: &Inertia, orbit: &Disturbance<'_>) -> Self {
+        let (normal, pole) = (orbit.path.axes[2], orbit.pole);
+        let scale = orbit.strength() * eta(orbit.orbit.eccentricity()).powi(-3) / inertia.momentum;
         let [torque, slope, _] = Term::average(inertia).map(|part| scale * part);
         let (along, across) = (pole.dot(&normal), pole.cross(&normal).norm_squared());
         let by_action = slope * (0.5 * across - 1.0 / 3.0);

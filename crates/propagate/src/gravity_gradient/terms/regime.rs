@@ -16,10 +16,10 @@ use super::term::{Sensitivity, SizedTerm, Term, slow_limit};
 use crate::error::Error;
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::constants::{LARGEST_CORRECTED, LARGEST_EFFECT, REFUSAL_FACTOR, SLOW_RATIO};
-use crate::gravity_gradient::orbit::derivatives::ORDERS;
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
-use crate::gravity_gradient::orbit::hansen::at_most;
+use crate::gravity_gradient::disturbance::Disturbance;
 use crate::input::options::Level;
+use crate::orbit::derivatives::ORDERS;
+use crate::orbit::hansen::at_most;
 
 /// Harmonics of the orbit, from −3 to 3, with which the frequency of a slow term is compared.
 const SLOW_HARMONICS: i32 = 3;
@@ -58,7 +58,7 @@ pub(crate) struct Terms {
 }
 
 impl Terms {
-    pub(crate) fn new(inertia: &Inertia, orbit: &EllipticOrbit<'_>) -> Self {
+    pub(crate) fn new(inertia: &Inertia, orbit: &Disturbance<'_>) -> Self {
         let level = orbit.level;
         let response = Sensitivity::new(inertia);
         let scale = 4.0 * orbit.strength() * orbit.envelope.span[0] / inertia.momentum;
@@ -88,7 +88,7 @@ struct Nearest {
 
 /// The mean motion and one orbit, from which the regime of each term follows.
 pub(crate) struct Regimes<'a> {
-    orbit: &'a EllipticOrbit<'a>,
+    orbit: &'a Disturbance<'a>,
     response: &'a Sensitivity,
     /// The shift of the frequencies by the average torque.
     secular: AverageShift,
@@ -104,8 +104,8 @@ pub(crate) struct Regimes<'a> {
 
 impl<'a> Regimes<'a> {
     /// For the terms of one body. The sizes of the terms of all bodies that are not slow sum to `whole`.
-    pub(crate) fn new(terms: &'a Terms, inertia: &Inertia, orbit: &'a EllipticOrbit<'a>, whole: f64) -> Self {
-        let EllipticOrbit { ledger, envelope, .. } = orbit;
+    pub(crate) fn new(terms: &'a Terms, inertia: &Inertia, orbit: &'a Disturbance<'a>, whole: f64) -> Self {
+        let Disturbance { ledger, envelope, .. } = orbit;
         let sizes = if orbit.rates == [0.0; 2] { &envelope.span[..] } else { &envelope.orbital.norms };
         let (secular, slow_limit) = (AverageShift::new(inertia, orbit), slow_limit(orbit));
         let regimes = Self { orbit, response: &terms.response, secular, slow_limit, sizes, nothing: 0.0, whole };
@@ -255,7 +255,7 @@ impl<'a> Regimes<'a> {
     /// The size of a harmonic of the orbit over that of the torque at the nearest place. Without a series it is an upper estimate for a span with the
     /// pericentre, and 0 for any other.
     fn amplitude(&self, number: i32) -> f64 {
-        let EllipticOrbit { orbit, series, envelope, .. } = self.orbit;
+        let Disturbance { orbit, series, envelope, .. } = self.orbit;
         match series {
             Some(series) => (series.largest(number.unsigned_abs() as usize).unwrap_or(0.0) / envelope.span[0]).min(1.0),
             None if envelope.passes => at_most(orbit.eccentricity(), f64::from(number), 1),
@@ -265,7 +265,7 @@ impl<'a> Regimes<'a> {
 
     /// The turn of the attitude by a harmonic of a term: at once, and by the drift that the changes of M and L make.
     fn turned(&self, term: &SizedTerm, Nearest { amplitude, distance, .. }: Nearest) -> f64 {
-        let EllipticOrbit { duration, mean_motion, .. } = *self.orbit;
+        let Disturbance { duration, mean_motion, .. } = *self.orbit;
         let distance = (distance - self.orbit.turning()).max(0.0);
         // A harmonic of the orbit acts at every passage of the pericentre.
         let span = duration + if amplitude < 1.0 { TAU / mean_motion } else { 0.0 };

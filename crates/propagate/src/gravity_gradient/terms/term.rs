@@ -2,7 +2,7 @@
 
 use crate::gravity_gradient::body::inertia::{HIGHEST, Inertia};
 use crate::gravity_gradient::constants::SLOW_RATIO;
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
+use crate::gravity_gradient::disturbance::Disturbance;
 
 /// The factors of one mean motion.
 #[derive(Clone, Copy, Debug)]
@@ -199,7 +199,7 @@ impl SizedTerm {
 }
 
 /// Largest |Ω| of a slow term: [`SLOW_RATIO`] times the largest rate of twice the true anomaly within the span and of the axes.
-pub(crate) fn slow_limit(orbit: &EllipticOrbit<'_>) -> f64 {
+pub(crate) fn slow_limit(orbit: &Disturbance<'_>) -> f64 {
     SLOW_RATIO * (orbit.envelope.fastest + orbit.turning())
 }
 

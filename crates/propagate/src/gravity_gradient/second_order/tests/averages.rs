@@ -2,22 +2,23 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::gravity_gradient::body::contraction::{contraction, factors};
 use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::disturbance::Disturbance;
+use crate::gravity_gradient::disturbance::series;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
-use crate::gravity_gradient::orbit::hansen::OrbitSeries;
-use crate::gravity_gradient::orbit::span::Reach;
 use crate::gravity_gradient::second_order::k2::Hamiltonian;
 use crate::gravity_gradient::second_order::k2_orbit_mean::OverOrbit;
 use crate::gravity_gradient::second_order::k2_remainder::Remainder;
 use crate::gravity_gradient::second_order::tests::{ECCENTRICITY, MEAN_MOTION, Scene, averaged, mean_rates};
 use crate::gravity_gradient::terms::divisors::{AverageShift, Divisors};
 use crate::gravity_gradient::terms::term::{Term, fast_terms, slow_limit};
-use crate::input::orbit::Orbit;
 use crate::numerics::C64;
-use crate::simd::kepler::Place;
+use crate::orbit::elements::Orbit;
+use crate::orbit::kepler::Place;
+use crate::orbit::span::Reach;
+use crate::orbit::tensor::products_at;
 use crate::simd::lanes::Lanes;
+use crate::torque::contraction;
 
 #[test]
 fn divisors_have_the_rates_of_the_average_torque() {
@@ -30,9 +31,8 @@ fn divisors_have_the_rates_of_the_average_torque() {
         let hamiltonian = Hamiltonian::first(&inertia, scene.elliptic().strength());
         let (axes, pole) = (scene.orbit.axes(), frame * Vector3::z());
         let slopes = mean_rates(&OverOrbit::new(&hamiltonian, ECCENTRICITY, MEAN_MOTION, axes), &pole);
-        let [first, second, _] = axes.map(|axis| frame.inverse() * axis);
         let turning = frame.inverse() * slopes.turning;
-        let [one, cosine, sine] = factors([first, second]);
+        let ([one, cosine, sine], _) = products_at(&frame, axes);
         let secular = AverageShift::new(&inertia, &scene.elliptic());
         for (harmonic, multiple) in [(2, 0), (-3, 1), (1, 1), (4, 2)] {
             let divisors = Divisors::new((harmonic, multiple), [-3.0 * MEAN_MOTION, MEAN_MOTION], false, &secular);
@@ -61,12 +61,12 @@ fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
     const STEPS: usize = 400;
     const FAST: f64 = 2e-3;
     let reach = Reach { eccentricity: ECCENTRICITY, anomaly: 0.0, sides: [10.0 * std::f64::consts::TAU; 2] };
-    let series = OrbitSeries::new(&reach).expect("a series");
+    let series = series(&reach).expect("a series");
     for scene in Scene::all() {
         let Mean { p, momentum, frame, .. } = scene.mean;
         let orbit = Orbit::new(FAST, ECCENTRICITY).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
         let scene = Scene { orbit, ..scene };
-        let elliptic = EllipticOrbit { series: Some(series.clone()), ..scene.elliptic() };
+        let elliptic = Disturbance { series: Some(series.clone()), ..scene.elliptic() };
         let scale = elliptic.strength();
         let inertia = Inertia::new(&scene.polhode, p.norm_sqr(), momentum);
         let lacking = |inertia: &Inertia, frame: &UnitQuaternion<f64>| {
@@ -78,7 +78,7 @@ fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
             )
         };
         let remainder = lacking(&inertia, &frame);
-        let (value, steady) = (remainder.value, remainder.rates(&inertia, &frame, &elliptic.axes[2]));
+        let (value, steady) = (remainder.value, remainder.rates(&inertia, &frame, &elliptic.path.axes[2]));
         // All of K2, with as many time derivatives as the sums have, less the closed form.
         let mut mean = 0.0;
         for k in 0..STEPS {
@@ -88,7 +88,7 @@ fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
             let all: Vec<Term> = fast_terms(&inertia, 0.0, slow_limit(&elliptic));
             let stand = moved.stand(&inertia, &elliptic);
             let mut still = stand;
-            still.tensors[2..].fill([0.0; 6]);
+            still.tensors[2..].fill([Lanes::splat(pulp::Scalar, 0.0); 5]);
             mean += (averaged(&stand, &all) - averaged(&still, &all)) / (scale * scale) / STEPS as f64;
         }
         let found = value / (scale * scale);

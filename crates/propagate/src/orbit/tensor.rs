@@ -1,7 +1,8 @@
-//! The traceless part of r̂r̂ in the frame, and what the terms of each m contract it to.
+//! The tensor (a/r)³ r̂r̂ in a frame: its traceless part, its turns about the axes of the frame, and its time derivatives.
 
-use crate::gravity_gradient::orbit::derivatives::ORDERS;
-use crate::gravity_gradient::orbit::elliptic_motion::Axes;
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::position::{Axes, fixed};
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
@@ -9,7 +10,8 @@ use crate::simd::lanes::Lanes;
 /// The traceless part of a symmetric tensor Θ: Θ33 − (Θ11 + Θ22)/2, Θ22 − Θ11, Θ12, Θ13, Θ23.
 pub(crate) type Deviator<S> = [Lanes<S>; 5];
 
-/// The traceless parts of (PP + QQ)/2, (PP − QQ)/2 and (PQ + QP)/2 for the axes P and Q of the orbit in the frame.
+/// The traceless parts of (PP + QQ)/2, (PP − QQ)/2 and (PQ + QP)/2 for the axes P and Q of the orbit in the frame: the factors of (a/r)³ times 1, cos 2f and
+/// sin 2f in (a/r)³ r̂r̂.
 pub(crate) type Products<S> = [Deviator<S>; 3];
 
 /// The products in the frame whose axes 1 and 2 are turned by the angle of `spin`, and inertial axis 3 there.
@@ -29,14 +31,28 @@ pub(crate) fn products<S: InstructionSet>(
         }
         *components = turned_axes(*components, spin);
     }
-    let [first, second] = axes;
+    (products_of(axes), turned_axes(rows[2], spin))
+}
+
+/// The products of two axes in the frame.
+#[inline(always)]
+fn products_of<S: InstructionSet>([first, second]: Axes<S>) -> Products<S> {
     let [one, other] = [product(first, scaled(first, 0.25)), product(second, scaled(second, 0.25))];
     let mut products = [product(first, scaled(second, 0.5)); 3];
     for c in 0..5 {
         products[0][c] = one[c] + other[c];
         products[1][c] = one[c] - other[c];
     }
-    (products, turned_axes(rows[2], spin))
+    products
+}
+
+/// The products in one frame, and inertial axis 3 there.
+pub(crate) fn products_at(
+    frame: &UnitQuaternion<f64>,
+    axes: [Vector3<f64>; 3],
+) -> (Products<pulp::Scalar>, [Lanes<pulp::Scalar>; 3]) {
+    let [none, one] = [0.0, 1.0].map(|value| Lanes::splat(pulp::Scalar, value));
+    products(QuaternionLanes::all(none, frame), &fixed(&axes, none), ComplexLanes { re: one, im: none })
 }
 
 #[inline(always)]
@@ -71,51 +87,39 @@ pub(crate) fn deviator_of<S: InstructionSet>(
     deviator
 }
 
+/// X₁Θ: the derivative of the components when the frame turns about its axis 1.
+#[inline(always)]
+pub(crate) fn about_first<S: InstructionSet>([axial, across, xy, xz, yz]: &Deviator<S>) -> Deviator<S> {
+    [yz.all(-3.0) * *yz, *yz + *yz, *xz, -*xy, yz.all(0.5).negate_mul_add(*across, *axial)]
+}
+
+/// X₂Θ: the derivative of the components when the frame turns about its axis 2.
+#[inline(always)]
+pub(crate) fn about_second<S: InstructionSet>([axial, across, xy, xz, yz]: &Deviator<S>) -> Deviator<S> {
+    [xz.all(3.0) * *xz, *xz + *xz, -*yz, -xz.all(0.5).mul_add(*across, *axial), *xy]
+}
+
+/// X₃Θ: the derivative of the components when the frame turns about its axis 3.
+#[inline(always)]
+fn about_third<S: InstructionSet>([_, across, xy, xz, yz]: &Deviator<S>) -> Deviator<S> {
+    [xy.all(0.0), xy.all(-4.0) * *xy, *across, *yz, -*xz]
+}
+
 /// Time derivatives of a tensor from those relative to axes that turn with an angular velocity, which is constant relative to them. The lists hold the orders
 /// from 0.
 #[inline(always)]
-pub(crate) fn turned<S: InstructionSet>(tensors: &mut [Deviator<S>; ORDERS], orders: usize, [a, b, c]: [Lanes<S>; 3]) {
-    let (half, two, three) = (a.all(0.5), a.all(2.0), a.all(3.0));
+pub(crate) fn turned<S: InstructionSet>(tensors: &mut [Deviator<S>], orders: usize, [a, b, c]: [Lanes<S>; 3]) {
     for first in 1..orders {
         // Each pass replaces the derivative j by (d/dt + ω×) of the derivative j − 1 of the pass before, beginning with the highest.
         for j in (first..orders).rev() {
-            let [axial, across, xy, xz, yz] = tensors[j - 1];
-            let (a_yz, b_xz) = (a * yz, b * xz);
-            let change = [
-                three * (a_yz - b_xz),
-                two * (two * c).mul_add(xy, -(a_yz + b_xz)),
-                c.negate_mul_add(across, b.mul_add(yz, -(a * xz))),
-                b.mul_add(half.mul_add(across, axial), a.mul_add(xy, -(c * yz))),
-                a.mul_add(half.mul_add(across, -axial), c.mul_add(xz, -(b * xy))),
-            ];
-            for (component, more) in tensors[j].iter_mut().zip(change) {
-                *component = *component + more;
+            let before = &tensors[j - 1];
+            let turns = [about_first(before), about_second(before), about_third(before)];
+            for (k, component) in tensors[j].iter_mut().enumerate() {
+                let change = a.mul_add(turns[0][k], b.mul_add(turns[1][k], c * turns[2][k]));
+                *component = *component - change;
             }
         }
     }
-}
-
-/// The contraction of r̂r̂ for m = 1 (r̄₊ r₃, times −1) or m = 2 (r̄₊², times −i), and its derivatives when the frame turns about its axes 1 and 2.
-pub(crate) type Contracted<S> = [ComplexLanes<S>; 3];
-
-/// The contractions for m = 1 or 2.
-#[inline(always)]
-pub(crate) fn contractions<S: InstructionSet>(deviator: &Deviator<S>, multiple: usize) -> Contracted<S> {
-    let c = |re: Lanes<S>, im: Lanes<S>| ComplexLanes { re, im };
-    let [axial, across, xy, xz, yz] = *deviator;
-    if multiple == 1 {
-        let half = xy.all(0.5);
-        [c(-xz, yz), c(xy, half.negate_mul_add(across, axial)), c(half.mul_add(across, axial), xy)]
-    } else {
-        let (two_xz, two_yz) = (xz + xz, yz + yz);
-        [c(-(xy + xy), across), c(-two_xz, two_yz), c(two_yz, two_xz)]
-    }
-}
-
-/// (3r₃² − 1)/2, the contraction for m = 0, and its derivatives when the frame turns about its axes 1 and 2. All are real.
-#[inline(always)]
-pub(crate) fn axial_contractions<S: InstructionSet>([axial, _, _, xz, yz]: &Deviator<S>) -> [Lanes<S>; 3] {
-    [*axial, yz.all(-3.0) * *yz, xz.all(3.0) * *xz]
 }
 
 #[cfg(test)]
@@ -133,6 +137,7 @@ mod tests {
         let deviator = |u: &Matrix3<f64>| [u.m33 - (u.m11 + u.m22) / 2.0, u.m22 - u.m11, u.m12, u.m13, u.m23].map(one);
         let rate = Vector3::new(0.8, -0.5, 1.3);
         // In the turning axes the derivative j is 0.7^j times the tensor.
+        const ORDERS: usize = 7;
         let mut tensors = [product(u, scaled(v, 0.5)); ORDERS];
         for (j, tensor) in tensors.iter_mut().enumerate() {
             *tensor = tensor.map(|component| component * one(0.7_f64.powi(j as i32)));

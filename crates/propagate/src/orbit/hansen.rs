@@ -2,9 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::elliptic_motion::eta;
-use super::span::Reach;
-use crate::gravity_gradient::constants::{FEWEST_ORBITS, LOG_CUTOFF, MOST_HARMONICS};
+use super::position::eta;
 use crate::numerics::C64;
 
 /// The coefficients of e^(ijl), from j = 0 on.
@@ -15,12 +13,15 @@ pub(crate) struct OrbitSeries {
 }
 
 impl OrbitSeries {
-    /// The series of an orbit, or `None` if it needs too many harmonics or the longer side of the span is shorter than [`FEWEST_ORBITS`]. Far from the
-    /// pericentre the sums over time derivatives are better until the next passage, because the series takes the mean over all passages.
-    pub(crate) fn new(reach: &Reach) -> Option<Self> {
-        let count = count(reach.eccentricity)?;
-        let fewest = FEWEST_ORBITS[usize::from(reach.eccentricity == 0.0 || reach.passes())];
-        (reach.longest() >= fewest * TAU).then(|| Self { coefficients: coefficients(reach.eccentricity, count, 0) })
+    /// The series of an orbit with so many harmonics on each side of 0.
+    pub(crate) fn new(eccentricity: f64, count: usize) -> Self {
+        Self { coefficients: coefficients(eccentricity, count, 0) }
+    }
+
+    /// The coefficients of e^(ijl) in (a/r)³ times 1, cos 2f and sin 2f.
+    pub(crate) fn at(&self, j: i32) -> [C64; 3] {
+        let [one, cosine, sine] = self.coefficients[j.unsigned_abs() as usize];
+        [one.into(), cosine.into(), C64::new(0.0, -sine * f64::from(j.signum()))]
     }
 
     /// The largest size of a coefficient in (a/r)³ times 1, e^(2if) and e^(−2if), if the series has it.
@@ -28,15 +29,6 @@ impl OrbitSeries {
         let [constant, even, odd] = self.coefficients.get(number)?;
         Some(constant.abs().max(even.abs() + odd.abs()))
     }
-}
-
-/// Number of harmonics on each side of 0: they fall like e^(−|j|(arcosh 1/e − η)), as Hansen's coefficients do.
-fn count(eccentricity: f64) -> Option<usize> {
-    if eccentricity == 0.0 {
-        return Some(2);
-    }
-    let count = 6.0 + LOG_CUTOFF / decay(eccentricity);
-    (count <= MOST_HARMONICS).then_some(count as usize)
 }
 
 /// Largest number of a harmonic of the orbit whose coefficient is computed.
@@ -119,26 +111,15 @@ mod tests {
 
     #[test]
     fn coefficients_are_as_large_as_hansen_s() {
-        for eccentricity in [0.0, 0.1, 0.6] {
-            let series =
-                OrbitSeries::new(&Reach { eccentricity, anomaly: 0.0, sides: [TAU; 2] }).expect("few harmonics");
-            let count = series.coefficients.len();
-            for number in 0..count {
+        for (eccentricity, count) in [(0.0, 2), (0.1, 20), (0.6, 100)] {
+            let series = OrbitSeries::new(eccentricity, count);
+            for number in 0..=count {
                 let found = series.largest(number).expect("a harmonic of the series");
                 let error = (found - largest(eccentricity, number)).abs();
                 assert!(error <= 1e-13, "{eccentricity} {number}: {error:e}");
             }
-            assert!(series.largest(count).is_none());
+            assert!(series.largest(count + 1).is_none());
         }
-    }
-
-    #[test]
-    fn orbits_with_too_many_harmonics_and_spans_without_a_pericentre_are_left_to_the_sums() {
-        let serves = |eccentricity: f64, anomaly: f64, orbits: f64| {
-            OrbitSeries::new(&Reach { eccentricity, anomaly, sides: [TAU * orbits, 0.0] }).is_some()
-        };
-        assert!(serves(0.0, 1.0, 3.0) && serves(0.8, 1.0, 3.0) && !serves(0.82, 1.0, 3.0));
-        assert!(serves(0.3, 1.0, 0.4) && !serves(0.3, PI, 0.4) && serves(0.0, PI, 0.4) && !serves(0.3, 1.0, 0.2));
     }
 
     #[test]

@@ -6,10 +6,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::complex_quaternion::ComplexLanes;
-use super::instruction_set::InstructionSet;
-use super::lanes::Lanes;
-use super::sincos::{sin_cos_of_turns, twice_arc, twice_short_arc};
+use crate::simd::complex_quaternion::ComplexLanes;
+use crate::simd::instruction_set::InstructionSet;
+use crate::simd::lanes::Lanes;
+use crate::simd::sincos::{sin_cos_of_turns, twice_arc, twice_short_arc};
 
 /// Largest eccentricity for which Lagrange's series starts the iteration.
 const SMALL: f64 = 0.3;

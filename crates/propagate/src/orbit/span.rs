@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::derivatives::{ORDERS, Orbital};
-use super::elliptic_motion::eta;
-use crate::simd::kepler::eccentric_anomaly;
+use super::position::eta;
+use crate::orbit::kepler::eccentric_anomaly;
 
 /// Points of a span at which the sizes are taken.
 const POINTS: usize = 48;

@@ -6,7 +6,9 @@
 
 use std::ops::Range;
 
-use super::elliptic_motion::eta;
+use super::kepler::Place;
+use super::position::eta;
+use super::tensor::{Deviator, Products, deviator_of, turned};
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
@@ -213,6 +215,31 @@ impl Orbital {
         sums
     }
 
+    /// The traceless part of (a/r)³ r̂r̂ and its time derivatives, from the products of the orbit's axes and inertial axis 3 in the frame.
+    #[inline(always)]
+    pub(crate) fn tensors<S: InstructionSet>(
+        &self,
+        products: &Products<S>,
+        [x, y, z]: [Lanes<S>; 3],
+        place: &Place<S>,
+    ) -> [Deviator<S>; ORDERS] {
+        let none = x.all(0.0);
+        let mut room = AnomalyPowers::new(place.turn());
+        let circle = room.of(place.turn(), self.multiples());
+        let mut tensors = [[none; 5]; ORDERS];
+        let orders = self.orders().min(ORDERS);
+        let [mut power, growth] = self.powers(place.cosine);
+        for (j, tensor) in tensors.iter_mut().enumerate().take(orders) {
+            *tensor = deviator_of(self.derivative(j, circle, power), products);
+            power = power * growth;
+        }
+        if self.node_rate != 0.0 {
+            let rate = x.all(self.node_rate);
+            turned(&mut tensors, orders, [x * rate, y * rate, z * rate]);
+        }
+        tensors
+    }
+
     /// The number of multiples of f, from 0, in the derivatives.
     pub(crate) fn multiples(&self) -> usize {
         self.multiples
@@ -222,7 +249,7 @@ impl Orbital {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simd::kepler::{Place, eccentric_anomaly};
+    use crate::orbit::kepler::{Place, eccentric_anomaly};
 
     /// The derivatives j at a mean anomaly.
     fn at(orbital: &Orbital, mean_anomaly: f64, j: usize) -> [f64; 3] {

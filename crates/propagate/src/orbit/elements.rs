@@ -1,7 +1,7 @@
 //! The relative orbit of a disturbing body: a Keplerian ellipse or hyperbola in any plane, fixed or with secular rates of node and pericentre.
 //!
 //! The elements refer to the inertial frame of the scene. Node and argument of the pericentre are those at the time of pericentre. Kepler's equation is solved
-//! in lanes ([`crate::simd::kepler`]), that of a hyperbola one by one ([`crate::numerics::hyperbola`]).
+//! in lanes ([`crate::orbit::kepler`]), that of a hyperbola one by one ([`crate::orbit::hyperbola`]).
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,9 +9,9 @@ use andoyer_double::DoubleDouble;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::Error;
-use crate::numerics::hyperbola::hyperbolic_anomaly;
 use crate::numerics::phase::Phase;
-use crate::simd::kepler::Place;
+use crate::orbit::hyperbola::hyperbolic_anomaly;
+use crate::orbit::kepler::Place;
 use crate::simd::lanes::Lanes;
 
 /// Largest mean anomaly from the pericentre \[rad\]. Beyond it a double has no phase.
@@ -240,16 +240,6 @@ impl Orbit {
     /// The attraction G × disturbing mass / a³ [1/time²]. The default is mean_motion² × mass_fraction.
     pub fn strength(&self) -> f64 {
         self.attraction.unwrap_or(self.mean_motion * self.mean_motion * self.mass_fraction)
-    }
-
-    /// The strength of the torque Γ = (3/2) × attraction [1/time²]: the torque is 2Γ (a/r)³ r̂ × T r̂.
-    pub(crate) fn torque_strength(&self) -> f64 {
-        1.5 * self.strength()
-    }
-
-    /// Γ in the unit of time in which the mean motion is `mean_motion`: its square may be 0 or infinite in the user's unit.
-    pub(crate) fn torque_strength_for(&self, mean_motion: f64) -> f64 {
-        1.5 * mean_motion * mean_motion * self.disturbing_fraction()
     }
 
     /// The elements: mean motion n, eccentricity, time of pericentre, inclination, node, argument of pericentre, mass fraction.

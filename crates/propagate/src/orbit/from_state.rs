@@ -12,10 +12,10 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use super::orbit::{MOST_TURNS, Orbit, check};
+use super::elements::{MOST_TURNS, Orbit, check};
 use crate::error::Error;
-use crate::numerics::hyperbola::{hyperbolic_anomaly, mean_anomaly};
-use crate::simd::kepler::eccentric_anomaly;
+use crate::orbit::hyperbola::{hyperbolic_anomaly, mean_anomaly};
+use crate::orbit::kepler::eccentric_anomaly;
 
 const CONIC: &str = "other than 1 for this position, velocity and gm: parabolas and straight falls have no orbit here";
 

@@ -1,18 +1,17 @@
-//! The motion of a disturbing body along its orbit: the place on the ellipse, and the axes of an ellipse whose node and pericentre precess.
+//! The position of a disturbing body as a function of time: the place on its ellipse, and the axes of an ellipse whose node and pericentre precess.
 //!
 //! The axes are unit vectors in inertial components: to the pericentre, perpendicular to it in the direction of motion, and along the orbital angular momentum.
 //! With secular rates they are R_z(node) R_x(inclination) R_z(argument of the pericentre) with angles that grow linearly with time.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 use pulp::NullaryFnOnce;
 
-use crate::gravity_gradient::constants::{ARC_SHARE, LONGEST_ARC};
-use crate::input::orbit::Orbit;
 use crate::numerics::phase::Phase;
+use crate::orbit::elements::Orbit;
+use crate::orbit::kepler::{Ellipse, Place};
 use crate::simd::instruction_set::InstructionSet;
-use crate::simd::kepler::{Ellipse, Place};
 use crate::simd::lanes::Lanes;
 
 /// η = √(1 − e²), without cancellation near e = 1.
@@ -20,23 +19,38 @@ pub(crate) fn eta(eccentricity: f64) -> f64 {
     ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt()
 }
 
+/// √|1 − e²| below which [`singularity`] is summed: the third term of its series is 1e-8 of it.
+const SMALL_ROOT: f64 = 0.01;
+
 /// Time since the epoch, with its rounding error.
 pub(crate) type Elapsed<S> = (Lanes<S>, Lanes<S>);
 
 /// Unit vectors to the pericentre and perpendicular to it, in inertial components.
 pub(crate) type Axes<S> = [[Lanes<S>; 3]; 2];
 
-/// The position of the disturbing body at some times: whole turns since the pericentre before the epoch, its place on the ellipse, and the ellipse's axes.
+/// The position of a body on its ellipse at some times: whole turns since the pericentre before the epoch, its place on the ellipse, and the ellipse's axes.
 #[derive(Clone, Copy)]
-pub(crate) struct When<S: InstructionSet> {
+pub(crate) struct Position<S: InstructionSet> {
     pub(crate) turns: Lanes<S>,
     pub(crate) place: Place<S>,
     pub(crate) axes: Axes<S>,
 }
 
-/// The motion of one disturbing body after the epoch of the scene; times in the user's unit.
+impl<S: InstructionSet> Position<S> {
+    /// r̂, the direction to the body in inertial components.
+    #[inline(always)]
+    pub(crate) fn direction(&self) -> [Lanes<S>; 3] {
+        let mut direction = self.axes[0];
+        for (component, across) in direction.iter_mut().zip(self.axes[1]) {
+            *component = component.mul_add(self.place.cosine, across * self.place.sine);
+        }
+        direction
+    }
+}
+
+/// The motion of a body on its ellipse as a function of the time after an epoch, in the user's unit of time.
 #[derive(Clone, Debug)]
-pub(crate) struct Course {
+pub(crate) struct Path {
     pub(crate) mean_anomaly: Phase,
     pub(crate) ellipse: Ellipse,
     /// At the epoch.
@@ -44,7 +58,7 @@ pub(crate) struct Course {
     turning: Option<TurningPlane>,
 }
 
-/// Node, argument of the pericentre, and sine and cosine of the inclination.
+/// Node and argument of the pericentre as functions of the time after an epoch, and sine and cosine of the inclination.
 #[derive(Clone, Debug)]
 struct TurningPlane {
     node: Phase,
@@ -52,7 +66,7 @@ struct TurningPlane {
     tilt: (f64, f64),
 }
 
-impl Course {
+impl Path {
     pub(crate) fn new(orbit: &Orbit, epoch: f64) -> Self {
         let turning = (!orbit.is_fixed()).then(|| {
             let [node, argument] = orbit.node_and_argument(epoch);
@@ -68,46 +82,35 @@ impl Course {
 
     /// The position at times after the epoch.
     #[inline(always)]
-    pub(crate) fn at<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> When<S> {
+    pub(crate) fn at<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Position<S> {
         let (turns, angle) = self.mean_anomaly.turns_and_angle(elapsed);
         let axes = match &self.turning {
             Some(turning) => elapsed.0.simd().vectorize(AxesAt { turning, elapsed }),
             None => fixed(&self.axes, angle),
         };
-        When { turns, place: self.ellipse.place(angle), axes }
+        Position { turns, place: self.ellipse.place(angle), axes }
     }
 
     /// Radians per unit of time of mean anomaly, node and pericentre together.
-    fn rate(&self) -> f64 {
+    pub(crate) fn rate(&self) -> f64 {
         let turning = self.turning.as_ref();
         let slow = turning.map_or(0.0, |t| t.node.frequency().abs() + t.argument.frequency().abs());
         TAU * (self.mean_anomaly.frequency() + slow)
     }
+}
 
-    /// The longest time from a place on the orbit over which a polynomial represents the torque, in either direction.
-    ///
-    /// The torque is singular at the mean anomalies ±i (artanh η − η), where the distance is 0.
-    pub(crate) fn arc(&self, mean_anomaly: f64) -> f64 {
-        self.to_singularity(mean_anomaly).min(LONGEST_ARC / self.rate())
-    }
-
-    /// The longest time over which a polynomial represents the torque, without the precession of the orbit.
-    fn to_singularity(&self, mean_anomaly: f64) -> f64 {
-        let eta = eta(self.ellipse.eccentricity);
-        // Two terms of the series, where the difference cancels. For a circle the singularity is infinitely far.
-        let singular = if eta < 0.01 { eta.powi(3) * (1.0 / 3.0 + eta * eta / 5.0) } else { eta.atanh() - eta };
-        ARC_SHARE * mean_anomaly.hypot(singular) / (TAU * self.mean_anomaly.frequency())
-    }
-
-    /// Number of arcs in a unit of time, at most.
-    pub(crate) fn arcs(&self) -> f64 {
-        let rate = TAU * self.mean_anomaly.frequency();
-        let (mut anomaly, mut count) = (-PI, 0.0);
-        while anomaly < PI {
-            anomaly += rate * self.to_singularity(anomaly);
-            count += 1.0;
-        }
-        count * self.mean_anomaly.frequency() + self.rate() / LONGEST_ARC
+/// The size of the imaginary mean anomaly at which the distance is 0, above the pericentre; infinite for a circle.
+///
+/// On an ellipse cos E = 1/e there: E = iy with tanh y = η, and M = i (y − η). On a hyperbola cosh H = 1/e: H = iy with tan y = √(e² − 1), and
+/// M = i (√(e² − 1) − y).
+pub(crate) fn singularity(eccentricity: f64) -> f64 {
+    let root = ((1.0 - eccentricity) * (1.0 + eccentricity)).abs().sqrt();
+    let square = if eccentricity > 1.0 { -root * root } else { root * root };
+    match eccentricity {
+        // Two terms of the series, where the difference cancels.
+        _ if root < SMALL_ROOT => root * root * root * (1.0 / 3.0 + square / 5.0),
+        e if e > 1.0 => root - root.atan(),
+        _ => root.atanh() - root,
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::orbit::Orbit;
-use super::tabulated::TabulatedOrbit;
+use super::elements::Orbit;
+use super::table::TabulatedOrbit;
 
 /// A disturbing body.
 #[derive(Clone, Debug, PartialEq)]
