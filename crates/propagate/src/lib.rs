@@ -5,7 +5,11 @@
 //! Units: none is built in; time, moments and angular velocity in any consistent set, angles in radians. An attitude is the rotation of body
 //! components into inertial ones. The theory is M. Lara, "Short-axis-mode rotation in complex variables" (2017).
 //!
+//! The feature `torques`, which is on by default, has motions under a torque: the averaged theory, integration, libration, and [`Motion::verify`]. Without it a free
+//! motion is built alone, and a scene with a torque is [`Error::NotBuilt`].
 #![doc = include_str!("../doc/formulas.html")]
+// What only motions under a torque use is dead without them.
+#![cfg_attr(not(feature = "torques"), allow(dead_code))]
 
 // The layers, each of which imports only those above it: tests/layers.py holds them to it. Empty lines keep rustfmt from sorting them.
 pub mod error;
@@ -22,18 +26,23 @@ mod input;
 
 mod torque_free;
 
+mod motion;
+
+#[cfg(feature = "torques")]
 mod gravity_gradient;
 
+#[cfg(feature = "torques")]
 mod cassini;
 
+#[cfg(feature = "torques")]
 mod integration;
 
+#[cfg(feature = "torques")]
 mod libration;
-
-mod motion;
 
 mod solve;
 
+#[cfg(feature = "torques")]
 pub mod verification;
 
 pub mod partials;
@@ -79,12 +88,14 @@ pub mod periods {
 
 pub mod disturbers {
     //! Bodies whose gravity gradient acts: by elements of an orbit or by a table of positions; Cassini states.
+    #[cfg(feature = "torques")]
     pub use crate::cassini::{CassiniState, cassini_states};
     pub use crate::orbit::disturbing_body::DisturbingBody;
     pub use crate::orbit::elements::{Oblateness, Orbit};
     pub use crate::orbit::table::TabulatedOrbit;
 }
 
+#[cfg(feature = "torques")]
 pub mod libration_terms {
     //! What is read of a body locked to an orbit.
     pub use crate::libration::solution::Libration;

@@ -8,10 +8,17 @@ use crate::motion::solved::{Given, Motion};
 use crate::simd::halt::GOING;
 use crate::torque_free::series::tables::SeriesTables;
 
+#[cfg(feature = "torques")]
 mod averaged;
+#[cfg(feature = "torques")]
+mod choose;
+#[cfg(not(feature = "torques"))]
+#[path = "solve/choose_free.rs"]
 mod choose;
 mod free;
+#[cfg(feature = "torques")]
 mod integrated;
+#[cfg(feature = "torques")]
 mod libration;
 mod several;
 

@@ -18,30 +18,14 @@ use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::draft::{Draft, Outset};
 use crate::gravity_gradient::estimate::MOST_ORBITS;
 use crate::gravity_gradient::first_order::corrections::Corrections;
-use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
 use crate::input::options::{Averaging, Level};
+use crate::motion::plan::GradientPlan;
 use crate::numerics::C64;
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
 use crate::orbit::position::Path;
 use crate::torque_free::polhode::Frame;
-
-/// Memory of the tables for one disturbing body, at most \[bytes\]: 18 to 50 kB.
-const TABLES: usize = 1 << 16;
-
-/// The entries of a plan that concern the gravity gradient.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub(crate) struct GradientPlan {
-    pub(crate) averaging: Averaging,
-    pub(crate) level: Level,
-    /// Number of terms in the short-period corrections.
-    pub(crate) terms: usize,
-    /// Sum of the sizes of all terms that are not slow, also dropped ones \[rad\].
-    pub(crate) size: f64,
-    /// The largest of the dropped terms, the truncation errors of kept terms, and the square of `size` \[rad\].
-    pub(crate) neglected: f64,
-}
 
 /// A motion under the gravity gradient.
 #[derive(Clone, Debug)]
@@ -112,12 +96,6 @@ impl Gradient {
             return Err(Error::SpanOfBodies { value: request.duration(), bound });
         }
         Ok(gradient)
-    }
-
-    /// Its memory, in bytes.
-    pub(crate) fn memory(&self) -> usize {
-        let exact = self.bodies.iter().flat_map(|(_, corrections)| &corrections.generator.exact).map(ExactTerm::memory);
-        TABLES * self.bodies.len() + exact.sum::<usize>() + self.slow.memory()
     }
 
     /// Mean rates of ℓ′ and y′ in the user's unit. y′ is counted from an axis that turns with the angular momentum and not about it.

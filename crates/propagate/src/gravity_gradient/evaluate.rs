@@ -1,18 +1,33 @@
 //! Attitudes and rates from the mean motion, at several times at once: phases, the averaged motion of the frame, corrections, and the harmonics of a and b
 //! (theory §8).
 
+use std::any::Any;
 use std::f64::consts::TAU;
 
-use pulp::NullaryFnOnce;
+use pulp::{Arch, NullaryFnOnce};
 
 use crate::gravity_gradient::disturbed::Gradient;
 use crate::gravity_gradient::first_order::corrections::Corrections;
+use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::generator::{Correction, MeanLanes};
+use crate::motion::forced::{End, Forced, InLanes, fill_in_lanes};
 use crate::orbit::position::{Elapsed, Path};
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
+use crate::simd::halt::Halt;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
 use crate::simd::phase::elapsed;
+use crate::simd::run::Run;
+
+/// Memory of the tables for one disturbing body, at most \[bytes\]: 18 to 50 kB.
+const TABLES: usize = 1 << 16;
+
+/// The reason why the times of a motion averaged over the spin are bounded.
+const SOLVED: &str =
+    ": averaging = spin solves the averaged equations no farther; averaging over the orbit reaches farther";
+
+/// The reason why the times of a motion solved on arcs of time are bounded.
+const SOLVED_ON_ARCS: &str = ": the averaged equations are solved no farther";
 
 /// Osculating variables at some times: p, cosine and sine of y′/2, M, and the invariable frame, which is not normalized.
 #[derive(Clone, Copy)]
@@ -55,9 +70,22 @@ impl Gradient {
         }
     }
 
-    /// Attitude and rates at times after the epoch, each only if requested.
+    /// The quaternion of theory §8 for a state near the mean state, not normalized.
     #[inline(always)]
-    pub(crate) fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
+    pub(crate) fn relative<S: InstructionSet>(&self, state: &Osculating<S>) -> QuaternionLanes<S> {
+        let Osculating { p, half, .. } = *state;
+        let beyond = p.re.mul_add(p.re, p.im.mul_add(p.im, p.re.all(-self.inertia.sigma)));
+        let square = p * p;
+        let [[a, a_bar], [b, b_bar]] = [self.pair[0].at(square, beyond), self.pair[1].at(square, beyond)];
+        let a = a.plus(a_bar, square.conjugate()) * half;
+        let b = (b * p).plus(b_bar, p.conjugate()) * half;
+        QuaternionLanes([b.re, b.im, a.im, a.re])
+    }
+}
+
+impl InLanes for Gradient {
+    #[inline(always)]
+    fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
         &self,
         elapsed: Elapsed<S>,
     ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
@@ -79,22 +107,33 @@ impl Gradient {
         }
         (attitude, rates)
     }
+}
 
-    /// The angular momenta in inertial components at `times`; `epoch` is in the same scale.
-    pub(crate) fn angular_momenta(&self, times: &[f64], epoch: f64, out: &mut [[f64; 3]]) {
-        dispatch(pulp::Arch::new(), Momenta { gradient: self, times, epoch, out });
+impl Forced for Gradient {
+    fn name(&self) -> &'static str {
+        "a motion under a torque"
     }
 
-    /// The quaternion of theory §8 for a state near the mean state, not normalized.
-    #[inline(always)]
-    pub(crate) fn relative<S: InstructionSet>(&self, state: &Osculating<S>) -> QuaternionLanes<S> {
-        let Osculating { p, half, .. } = *state;
-        let beyond = p.re.mul_add(p.re, p.im.mul_add(p.im, p.re.all(-self.inertia.sigma)));
-        let square = p * p;
-        let [[a, a_bar], [b, b_bar]] = [self.pair[0].at(square, beyond), self.pair[1].at(square, beyond)];
-        let a = a.plus(a_bar, square.conjugate()) * half;
-        let b = (b * p).plus(b_bar, p.conjugate()) * half;
-        QuaternionLanes([b.re, b.im, a.im, a.re])
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn memory(&self) -> usize {
+        let exact = self.bodies.iter().flat_map(|(_, corrections)| &corrections.generator.exact).map(ExactTerm::memory);
+        TABLES * self.bodies.len() + exact.sum::<usize>() + self.slow.memory()
+    }
+
+    fn fill(&self, arch: Arch, run: Run<'_>) -> Result<(), Halt> {
+        fill_in_lanes(self, arch, run)
+    }
+
+    fn ends(&self) -> Option<[End; 2]> {
+        Some([(self.bound(), if self.is_by_quarters() { SOLVED } else { SOLVED_ON_ARCS }); 2])
+    }
+
+    fn angular_momenta(&self, times: &[f64], epoch: f64, out: &mut [[f64; 3]]) -> bool {
+        dispatch(Arch::new(), Momenta { gradient: self, times, epoch, out });
+        true
     }
 }
 

@@ -3,13 +3,23 @@
 //! If the coefficients of an integration are not kept, a step is expanded again when a time falls into it. The expansion takes the time of the step and gives
 //! the same bits. Times in order share an expansion.
 
+use std::any::Any;
+
 use pulp::Arch;
 
 use super::expansion::{StepExpansion, Workspace};
 use super::integrated::Integrated;
 use super::integrator::{Side, Step};
+use super::series::Coefficients;
+use crate::motion::forced::{End, Forced};
 use crate::numerics::scaling::scaled;
-use crate::simd::instruction_set::dispatch_few;
+use crate::simd::halt::Halt;
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch, dispatch_few};
+use crate::simd::run::Run;
+
+/// The reasons why the times of an integrated motion are bounded.
+const BEFORE: &str = ": the motion is integrated over its span, and this is the part before the epoch";
+const AFTER: &str = ": the motion is integrated over its span, and this is the part after the epoch";
 
 /// The step of the last evaluated time.
 pub(crate) struct Cursor<'a> {
@@ -67,5 +77,46 @@ fn within(time: (f64, f64), backward: bool, steps: &[Step]) -> bool {
     match steps {
         [start, end, ..] => reached(time, backward, start) && !reached(time, backward, end),
         _ => false,
+    }
+}
+
+impl Forced for Integrated {
+    fn name(&self) -> &'static str {
+        "an integrated motion"
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn memory(&self) -> usize {
+        let side = |Side { steps, coefficients }: &Side| {
+            steps.capacity() * size_of::<Step>() + coefficients.capacity() * size_of::<Coefficients>()
+        };
+        size_of::<Self>() + self.sides.iter().map(side).sum::<usize>()
+    }
+
+    fn fill(&self, arch: Arch, run: Run<'_>) -> Result<(), Halt> {
+        dispatch(arch, ByCursor { motion: self, run })
+    }
+
+    fn ends(&self) -> Option<[End; 2]> {
+        Some([(self.reach[0].abs(), BEFORE), (self.reach[1], AFTER)])
+    }
+}
+
+/// The times of one thread.
+struct ByCursor<'a> {
+    motion: &'a Integrated,
+    run: Run<'a>,
+}
+
+impl Task for ByCursor<'_> {
+    type Output = Result<(), Halt>;
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, _: S) -> Self::Output {
+        let mut cursor = Cursor::new(self.motion);
+        self.run.one_by_one(|elapsed| cursor.at(elapsed))
     }
 }

@@ -10,9 +10,11 @@ use super::bound::{FLOOR, INPUT, Interpolated, MeasuredSteps, Profile, SAFETY, w
 use super::disturber::Disturber;
 use super::expansion::Equations;
 use super::integrator::{KeptSteps, Precision, ROUNDING, Runner, Side, Step};
-use super::series::{Coefficients, Row, largest};
+use super::series::{Row, largest};
 use crate::error::Error;
 use crate::input::scene::Scene;
+use crate::motion::plan::IntegrationPlan;
+use crate::motion::verification_cost::VerificationCost;
 use crate::numerics::scaling::{exponent, scaled};
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
@@ -33,16 +35,6 @@ const FINER: f64 = 0.05;
 
 /// Length of a step \[rad\], from below.
 const STEP: f64 = 0.65;
-
-/// The entries of a plan about an integration.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub(crate) struct IntegrationPlan {
-    pub(crate) steps: usize,
-    pub(crate) bodies: usize,
-    /// The error bound without the interpolation of tables, where it is less than half of the whole and the whole exceeds the tolerance \[rad\].
-    #[serde(default)]
-    pub(crate) uninterpolated: Option<f64>,
-}
 
 /// A motion by integration. Times are those from the epoch in its own unit.
 #[derive(Clone, Debug)]
@@ -111,14 +103,6 @@ impl Integrated {
         IntegrationPlan { steps, bodies: self.equations.bodies.len(), uninterpolated: self.uninterpolated }
     }
 
-    /// Its memory, in bytes.
-    pub(crate) fn memory(&self) -> usize {
-        let side = |Side { steps, coefficients }: &Side| {
-            steps.capacity() * size_of::<Step>() + coefficients.capacity() * size_of::<Coefficients>()
-        };
-        size_of::<Self>() + self.sides.iter().map(side).sum::<usize>()
-    }
-
     /// The order of the series.
     pub(crate) fn order(&self) -> usize {
         self.order
@@ -135,6 +119,20 @@ pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
     let phase = problem.phase();
     let rates = INPUT + ROUNDING[1] * problem.gyration() * (STEP * phase).sqrt();
     Some((FLOOR + SAFETY[0] * rates * phase, problem.most_steps()))
+}
+
+/// The cost of a verification of a motion under torques over the span of its scene; `None` without a span.
+pub(crate) fn verification_cost(scene: &Scene) -> Option<VerificationCost> {
+    let bodies = scene.asked_disturbing().len();
+    if bodies == 0 {
+        return VerificationCost::over_span(scene);
+    }
+    let ((start, stop), epoch) = (scene.asked_span()?, scene.state().epoch);
+    let sides = [(epoch - start).max(0.0), (stop - epoch).max(0.0)];
+    // `prospect` counts the steps on the longer side.
+    let (_, steps) = prospect(scene)?;
+    let longer = sides[0].max(sides[1]).max(f64::MIN_POSITIVE);
+    Some(VerificationCost { steps: steps * (sides[0] + sides[1]) / longer, bodies })
 }
 
 /// The equations with the state and the times.

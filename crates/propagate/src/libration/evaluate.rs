@@ -3,17 +3,24 @@
 //! ψ, θ, φ and their momenta are sums of harmonics of the proper angles, of M and of α ([`super::waves`]); the longitude and the pole have different ones. The frame turns
 //! with (r M + ψ₀ + ψ)/2, as a phase in double-double, and with the node.
 
+use std::any::Any;
 use std::f64::consts::TAU;
 
 use andoyer_double::DoubleDouble;
+use pulp::Arch;
 
 use super::course::MOST_POWERS;
 use super::solution::Libration;
 use super::waves::{PHASES, Waves, inner_phase, outer_phases};
+use crate::motion::forced::{Forced, InLanes, fill_in_lanes};
+use crate::motion::solved::Motion;
+use crate::motion::trajectory::Trajectory;
 use crate::numerics::phase::Phase;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
+use crate::simd::halt::Halt;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
+use crate::simd::run::Run;
 use crate::simd::sincos::sin_cos_of_turns;
 use crate::simd::unit_powers::UnitPowers;
 
@@ -71,32 +78,6 @@ impl LibrationEvaluator {
             body: [0, 1, 2].map(|row| [0, 1, 2].map(|column| body[(row, column)])),
             libration,
         }
-    }
-
-    /// Its memory, in bytes.
-    pub(crate) fn memory(&self) -> usize {
-        let harmonics = self.libration.harmonics() * self.libration.memory_of_a_harmonic();
-        size_of::<Self>() + self.longitude.memory() + self.pole.memory() + harmonics
-    }
-
-    #[inline(always)]
-    pub(crate) fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
-        &self,
-        elapsed: (Lanes<S>, Lanes<S>),
-    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
-        let zero = elapsed.0.all(0.0);
-        let ([psi, p_psi], [theta, phi, p_theta, p_phi]) = self.variables::<S, RATES>(elapsed);
-        let half = zero.all(0.5 / TAU);
-        let (theta, phi) = (sin_cos_of_turns(theta * half), sin_cos_of_turns(phi * half));
-        let mut attitude = [zero; 4];
-        if ATTITUDE {
-            attitude = self.attitude(elapsed, self.half_turn.sin_cos_beyond(elapsed, psi * half), theta, phi);
-        }
-        let mut rates = [zero; 3];
-        if RATES {
-            rates = self.rates([p_psi, p_theta, p_phi], theta, phi);
-        }
-        (attitude, rates)
     }
 
     /// The attitude from sines and cosines of half the angles.
@@ -200,5 +181,54 @@ impl LibrationEvaluator {
         let [psi] = self.longitude.sums::<S, 1>(outer, inner, zero);
         let [theta, phi] = self.pole.sums::<S, 2>(outer, inner, zero);
         ([psi, zero], [theta, phi, zero, zero])
+    }
+}
+
+impl InLanes for LibrationEvaluator {
+    #[inline(always)]
+    fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
+        &self,
+        elapsed: (Lanes<S>, Lanes<S>),
+    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
+        let zero = elapsed.0.all(0.0);
+        let ([psi, p_psi], [theta, phi, p_theta, p_phi]) = self.variables::<S, RATES>(elapsed);
+        let half = zero.all(0.5 / TAU);
+        let (theta, phi) = (sin_cos_of_turns(theta * half), sin_cos_of_turns(phi * half));
+        let mut attitude = [zero; 4];
+        if ATTITUDE {
+            attitude = self.attitude(elapsed, self.half_turn.sin_cos_beyond(elapsed, psi * half), theta, phi);
+        }
+        let mut rates = [zero; 3];
+        if RATES {
+            rates = self.rates([p_psi, p_theta, p_phi], theta, phi);
+        }
+        (attitude, rates)
+    }
+}
+
+impl Forced for LibrationEvaluator {
+    fn name(&self) -> &'static str {
+        "a libration"
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn memory(&self) -> usize {
+        let harmonics = self.libration.harmonics() * self.libration.memory_of_a_harmonic();
+        size_of::<Self>() + self.longitude.memory() + self.pole.memory() + harmonics
+    }
+
+    fn fill(&self, arch: Arch, run: Run<'_>) -> Result<(), Halt> {
+        fill_in_lanes(self, arch, run)
+    }
+}
+
+impl Motion {
+    /// The proper modes and the terms of a libration; `None` for other methods.
+    pub fn libration(&self) -> Option<&Libration> {
+        let Trajectory::Forced(motion) = &self.trajectory else { return None };
+        motion.as_any().downcast_ref::<LibrationEvaluator>().map(|evaluator| &evaluator.libration)
     }
 }

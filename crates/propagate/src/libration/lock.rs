@@ -8,6 +8,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use super::shape::{LockedShape, PlaneMotion};
 use crate::cassini::{CassiniState, cassini_states};
 use crate::input::scene::Scene;
+use crate::motion::plan::in_words;
 use crate::numerics::phase::Phase;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
@@ -199,11 +200,6 @@ fn precession_of(scene: &Scene, orbit: &Orbit, shape: &LockedShape, body: UnitQu
 /// The rotation by an angle about an axis.
 fn about(axis: usize, angle: f64) -> UnitQuaternion<f64> {
     UnitQuaternion::from_axis_angle(&[Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()][axis], angle)
-}
-
-/// A resonance as text: 3/2, or 1.
-pub(crate) fn in_words(twice: i32) -> String {
-    if twice % 2 == 0 { (twice / 2).to_string() } else { format!("{twice}/2") }
 }
 
 /// The rotation from the axes of sorted moments to the body's, and the sorted moments.

@@ -13,9 +13,10 @@ use andoyer_series::{BirkhoffMap, Error as SeriesError};
 use super::course::FourierMotion;
 use super::form::{Truncated, form};
 use super::hamiltonian::equilibrium;
-use super::lock::{Lock, in_words};
+use super::lock::Lock;
 use super::residual::residual;
 use crate::error::Error;
+use crate::motion::plan::in_words;
 
 /// Orders without a phase of the orbit, with one and with two.
 const HIGHEST: [usize; 3] = [16, 10, 8];

@@ -120,8 +120,8 @@ impl<'a> Batch<'a> {
         for (part, out) in times.chunks(GROUP).zip(out.chunks_mut(GROUP)) {
             going(self.stop).map_err(|halt| self.halted(halt, times))?;
             match &motion.trajectory {
-                Trajectory::Gradient(gradient) => gradient.angular_momenta(part, epoch, out),
-                Trajectory::Integrated(_) | Trajectory::Libration(_) => self.momenta_of_samples(part, out)?,
+                Trajectory::Forced(motion) if motion.angular_momenta(part, epoch, out) => {}
+                Trajectory::Forced(_) => self.momenta_of_samples(part, out)?,
                 _ => out.fill(motion.angular_momentum.into()),
             }
         }

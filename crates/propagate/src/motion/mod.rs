@@ -5,7 +5,8 @@
 mod andoyer;
 pub(crate) mod batch;
 mod energy;
+pub(crate) mod forced;
 pub(crate) mod plan;
 pub(crate) mod solved;
 pub(crate) mod trajectory;
-mod verification_cost;
+pub(crate) mod verification_cost;

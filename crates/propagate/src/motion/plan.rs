@@ -8,11 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::verification_cost::VerificationCost;
 use crate::error::duration_in_words;
-use crate::gravity_gradient::disturbed::GradientPlan;
 use crate::input::options::{Averaging, Level, Method};
 use crate::input::scene::Scene;
-use crate::integration::integrated::IntegrationPlan;
-use crate::libration::lock::in_words;
 use crate::torque_free::error_budget::DEFAULT_ROTATIONS;
 use crate::torque_free::mode::Mode;
 
@@ -24,6 +21,29 @@ pub(crate) const ROUNDED_TOLERANCE: f64 = 2e-14;
 
 /// The longest verification without a span \[s\].
 pub(crate) const LONGEST_VERIFICATION: f64 = 60.0;
+
+/// The entries of a plan that concern the gravity gradient.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct GradientPlan {
+    pub(crate) averaging: Averaging,
+    pub(crate) level: Level,
+    /// Number of terms in the short-period corrections.
+    pub(crate) terms: usize,
+    /// Sum of the sizes of all terms that are not slow, also dropped ones \[rad\].
+    pub(crate) size: f64,
+    /// The largest of the dropped terms, the truncation errors of kept terms, and the square of `size` \[rad\].
+    pub(crate) neglected: f64,
+}
+
+/// The entries of a plan about an integration.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct IntegrationPlan {
+    pub(crate) steps: usize,
+    pub(crate) bodies: usize,
+    /// The error bound without the interpolation of tables, where it is less than half of the whole and the whole exceeds the tolerance \[rad\].
+    #[serde(default)]
+    pub(crate) uninterpolated: Option<f64>,
+}
 
 /// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,7 +67,7 @@ pub struct Plan {
     pub(crate) resonance: Option<i32>,
     /// Whether derivatives are computed by power series, because their closed form cancels.
     pub(crate) expanded: bool,
-    /// The cost of a verification over the span, if the scene has one.
+    /// The cost of a verification over the span, if the scene has one; without its torques until the motion under them is solved.
     pub(crate) verification: Option<VerificationCost>,
     pub(crate) skipped: Vec<String>,
 }
@@ -70,7 +90,7 @@ impl Plan {
             integration: None,
             resonance: None,
             expanded: false,
-            verification: VerificationCost::over_span(scene, mode == Mode::Spherical),
+            verification: VerificationCost::over_span(scene),
             skipped: Vec::new(),
         }
     }
@@ -336,6 +356,11 @@ pub(crate) fn missed(bound: f64, tolerance: f64, over: Over) -> String {
     let advice = if bound < PI { String::new() } else { format!("; {}", over.advice()) };
     let bound = bound_in_words(bound);
     format!("the error bound of the attitude, {bound}, exceeds the tolerance, {tolerance:e} rad, over {over}{advice}")
+}
+
+/// A resonance as text: 3/2, or 1.
+pub(crate) fn in_words(twice: i32) -> String {
+    if twice % 2 == 0 { (twice / 2).to_string() } else { format!("{twice}/2") }
 }
 
 /// A message without the signs that a plan does not print.

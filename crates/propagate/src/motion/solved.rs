@@ -4,13 +4,13 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use super::forced::End;
 use super::plan::Plan;
 use super::trajectory::Trajectory;
 use crate::error::Error;
 use crate::input::options::Convention;
 use crate::input::scene::Scene;
 use crate::input::state::State;
-use crate::libration::solution::Libration;
 
 /// Largest number of rotations from the epoch, within which phases are accurate to 1e-14 rad. Not far beyond, a double no longer distinguishes one turn from
 /// the next.
@@ -18,17 +18,6 @@ const MOST_ROTATIONS: f64 = 1e15;
 
 /// Largest time. The sum of two such times does not overflow.
 const LONGEST: f64 = 1e300;
-
-/// The reason why the times of a motion averaged over the spin are bounded.
-const SOLVED: &str =
-    ": averaging = spin solves the averaged equations no farther; averaging over the orbit reaches farther";
-
-/// The reason why the times of a motion solved on arcs of time are bounded.
-const SOLVED_ON_ARCS: &str = ": the averaged equations are solved no farther";
-
-/// The reasons why the times of an integrated motion are bounded.
-const BEFORE: &str = ": the motion is integrated over its span, and this is the part before the epoch";
-const AFTER: &str = ": the motion is integrated over its span, and this is the part after the epoch";
 
 /// Attitude and angular velocity at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,14 +102,6 @@ impl Motion {
     /// Its memory in bytes, to some kilobytes; that of a motion under a torque grows while times are evaluated.
     pub(crate) fn memory(&self) -> usize {
         size_of::<Self>() + self.trajectory.memory()
-    }
-
-    /// The proper modes and the terms of a libration; `None` for other methods.
-    pub fn libration(&self) -> Option<&Libration> {
-        match &self.trajectory {
-            Trajectory::Libration(evaluator) => Some(&evaluator.libration),
-            _ => None,
-        }
     }
 
     /// The mean frequencies [rad per unit of time]; 0 if the motion has none.
@@ -246,10 +227,8 @@ impl Motion {
 
     /// The largest times before (negative) and after the epoch that can be evaluated.
     pub(crate) fn reach(&self) -> [f64; 2] {
-        match &self.trajectory {
-            Trajectory::Integrated(motion) => motion.reach,
-            _ => [-self.distance().0, self.distance().0],
-        }
+        let [(before, _), (after, _)] = self.ends();
+        [-before, after]
     }
 
     /// The reach for times in the scale of `epoch`, which is that of the scene or 0. Times that count from the epoch have more digits than the ends of the span,
@@ -258,7 +237,7 @@ impl Motion {
         let [least, most] = self.reach();
         let of_scene = self.scene.state().epoch;
         match &self.trajectory {
-            Trajectory::Integrated(_) if epoch != of_scene => {
+            Trajectory::Forced(_) if epoch != of_scene => {
                 let rounding = f64::EPSILON * (of_scene.abs() + least.abs().max(most));
                 [least - rounding, most + rounding]
             }
@@ -266,17 +245,16 @@ impl Motion {
         }
     }
 
-    /// The largest time from the epoch that can be evaluated, and the reason for the bound.
-    fn distance(&self) -> (f64, &'static str) {
+    /// The largest times before and after the epoch that can be evaluated, and the reasons for the bounds.
+    fn ends(&self) -> [End; 2] {
         // The time is also bounded for a body at rest, or for one that turns once in 1e285 units, so that no sum of two times overflows.
         let phases = MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude;
         let phases = if phases < LONGEST { (phases, ": farther away the motion has no phase") } else { (LONGEST, "") };
-        match &self.trajectory {
-            Trajectory::Gradient(gradient) if gradient.bound() < phases.0 => {
-                (gradient.bound(), if gradient.is_by_quarters() { SOLVED } else { SOLVED_ON_ARCS })
-            }
-            _ => phases,
-        }
+        let own = match &self.trajectory {
+            Trajectory::Forced(motion) => motion.ends(),
+            _ => None,
+        };
+        own.map_or([phases; 2], |ends| ends.map(|end| if end.0 < phases.0 { end } else { phases }))
     }
 
     /// Checks that all times have a phase; `epoch` is in the same scale as the times.
@@ -291,11 +269,8 @@ impl Motion {
     }
 
     pub(crate) fn no_phase(&self, index: usize, times: &[f64], epoch: f64) -> Error {
-        let (bound, reason) = match &self.trajectory {
-            Trajectory::Integrated(motion) if times[index] < epoch => (motion.reach[0].abs(), BEFORE),
-            Trajectory::Integrated(motion) => (motion.reach[1], AFTER),
-            _ => self.distance(),
-        };
+        // Of a time that is NaN the end after the epoch.
+        let (bound, reason) = self.ends()[usize::from(!(times[index] < epoch))];
         self.too_far((index, times[index]), epoch, bound, reason)
     }
 

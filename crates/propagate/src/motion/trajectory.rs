@@ -10,23 +10,19 @@
 //! functions with target features, vectorized by the compiler, took 31, 15 and 11.7 ns. The crate `wide` fixes its instructions at compile time, so it cannot
 //! select them at run time.
 
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use andoyer_series::threads::shared;
 use pulp::Arch;
 
-use crate::gravity_gradient::disturbed::Gradient;
-use crate::integration::dense::Cursor;
-use crate::integration::integrated::Integrated;
-use crate::libration::evaluate::LibrationEvaluator;
+use super::forced::Forced;
 use crate::numerics::phase::Phase;
-use crate::simd::circles::{Evaluate, Source};
+use crate::simd::circles::Evaluate;
 use crate::simd::grid::{GROUP, Grid};
 use crate::simd::halt::Halt;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
-use crate::simd::lanes::Lanes;
 use crate::simd::outputs::Outputs;
-use crate::simd::phase::elapsed;
 use crate::simd::run::Run;
 use crate::torque_free::separatrix::Passage;
 use crate::torque_free::steady::Steady;
@@ -48,12 +44,8 @@ pub(crate) enum Trajectory {
     Wobble(Box<WobbleEvaluator>),
     /// A motion near the separatrix or on it.
     Passage(Box<Passage>),
-    /// Rotation under a gravity gradient.
-    Gradient(Box<Gradient>),
-    /// A numerical integration.
-    Integrated(Box<Integrated>),
-    /// A libration about a spin–orbit resonance.
-    Libration(Box<LibrationEvaluator>),
+    /// A motion under a torque.
+    Forced(Arc<dyn Forced>),
 }
 
 impl Trajectory {
@@ -62,7 +54,7 @@ impl Trajectory {
         match self {
             Self::Steady(steady) => Some(steady.phases()),
             Self::Wobble(tables) => Some(tables.phases()),
-            Self::Passage(_) | Self::Gradient(_) | Self::Integrated(_) | Self::Libration(_) => None,
+            Self::Passage(_) | Self::Forced(_) => None,
         }
     }
 }
@@ -74,9 +66,7 @@ impl Trajectory {
             Self::Steady(steady) => size_of_val(&**steady),
             Self::Wobble(wobble) => size_of_val(&**wobble),
             Self::Passage(passage) => size_of_val(&**passage),
-            Self::Gradient(gradient) => gradient.memory(),
-            Self::Integrated(motion) => motion.memory(),
-            Self::Libration(libration) => libration.memory(),
+            Self::Forced(motion) => motion.memory(),
         }
     }
 }
@@ -105,7 +95,13 @@ impl Evaluation<'_> {
     fn spread(&self, times: &[f64], outputs: Outputs<'_>, grid: Option<&Grid>, threads: usize) -> Result<(), Halt> {
         if threads <= 1 {
             let Self { trajectory, epoch, reach, arch, stop } = *self;
-            return dispatch(arch, Dispatch { trajectory, run: Run { epoch, reach, times, outputs, grid, stop } });
+            let run = Run { epoch, reach, times, outputs, grid, stop };
+            return match trajectory {
+                Trajectory::Forced(motion) => motion.fill(arch, run),
+                Trajectory::Steady(steady) => dispatch(arch, ByCircles { motion: &**steady, run }),
+                Trajectory::Wobble(wobble) => dispatch(arch, ByCircles { motion: &**wobble, run }),
+                Trajectory::Passage(passage) => dispatch(arch, ByPassage { passage, run }),
+            };
         }
         let half = threads / 2;
         let place = (times.len() / threads * half).next_multiple_of(GROUP).min(times.len());
@@ -119,70 +115,32 @@ impl Evaluation<'_> {
     }
 }
 
-/// A part of the times, for one thread.
-struct Dispatch<'a> {
-    trajectory: &'a Trajectory,
+/// The times of one thread, for a motion that depends on its phases.
+struct ByCircles<'a, C> {
+    motion: &'a C,
     run: Run<'a>,
 }
 
-impl Task for Dispatch<'_> {
+impl<C: Evaluate> Task for ByCircles<'_, C> {
     type Output = Result<(), Halt>;
 
     #[inline(always)]
     fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
-        let Self { trajectory, run } = self;
-        match trajectory {
-            Trajectory::Steady(steady) => run.by_circles(simd, steady.as_ref()),
-            Trajectory::Wobble(tables) => run.by_circles(simd, tables.as_ref()),
-            Trajectory::Passage(passage) => run.one_by_one(|elapsed| passage.evaluate(elapsed)),
-            Trajectory::Integrated(motion) => {
-                let mut cursor = Cursor::new(motion);
-                run.one_by_one(|elapsed| cursor.at(elapsed))
-            }
-            Trajectory::Gradient(gradient) => {
-                let epoch = Lanes::splat(simd, run.epoch);
-                run.by_source(simd, Disturbed { gradient, epoch })
-            }
-            Trajectory::Libration(libration) => {
-                let epoch = Lanes::splat(simd, run.epoch);
-                run.by_source(simd, Librating { libration, epoch })
-            }
-        }
+        self.run.by_circles(simd, self.motion)
     }
 }
 
-/// The evaluation under a gravity gradient.
-#[derive(Clone, Copy)]
-struct Disturbed<'a, S: InstructionSet> {
-    gradient: &'a Gradient,
-    epoch: Lanes<S>,
+/// The times of one thread, for a motion along the separatrix.
+struct ByPassage<'a> {
+    passage: &'a Passage,
+    run: Run<'a>,
 }
 
-impl<S: InstructionSet> Source<S> for Disturbed<'_, S> {
+impl Task for ByPassage<'_> {
+    type Output = Result<(), Halt>;
+
     #[inline(always)]
-    fn at<const ATTITUDE: bool, const RATES: bool>(
-        &self,
-        _place: usize,
-        times: Lanes<S>,
-    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
-        self.gradient.evaluate::<S, ATTITUDE, RATES>(elapsed(times, self.epoch))
-    }
-}
-
-/// The evaluation of a libration.
-#[derive(Clone, Copy)]
-struct Librating<'a, S: InstructionSet> {
-    libration: &'a LibrationEvaluator,
-    epoch: Lanes<S>,
-}
-
-impl<S: InstructionSet> Source<S> for Librating<'_, S> {
-    #[inline(always)]
-    fn at<const ATTITUDE: bool, const RATES: bool>(
-        &self,
-        _place: usize,
-        times: Lanes<S>,
-    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
-        self.libration.evaluate::<S, ATTITUDE, RATES>(elapsed(times, self.epoch))
+    fn run<S: InstructionSet>(self, _: S) -> Self::Output {
+        self.run.one_by_one(|elapsed| self.passage.evaluate(elapsed))
     }
 }

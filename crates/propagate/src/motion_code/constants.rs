@@ -46,9 +46,7 @@ impl Constants {
             Trajectory::Steady(steady) => Self::of_steady(steady, epoch, bound),
             Trajectory::Wobble(wobble) => Self::of_wobble(wobble, epoch, bound),
             Trajectory::Passage(_) => return Err(Error::NoCode { motion: "a passage along the separatrix" }),
-            Trajectory::Libration(_) => return Err(Error::NoCode { motion: "a libration" }),
-            Trajectory::Integrated(_) => return Err(Error::NoCode { motion: "an integrated motion" }),
-            Trajectory::Gradient(_) => return Err(Error::NoCode { motion: "a motion under a torque" }),
+            Trajectory::Forced(motion) => return Err(Error::NoCode { motion: motion.name() }),
         };
         if let Some(given) = &motion.given {
             let back = given.turn.inverse().into_inner();

@@ -1,6 +1,6 @@
 //! The disturbing body's part of the torque as Fourier series in its mean anomaly l: (a/r)³ times 1, cos 2f and sin 2f (Hansen's coefficients).
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use super::position::eta;
 use crate::numerics::C64;

@@ -103,7 +103,7 @@ impl Target<'_> {
                 let amplitudes = &amplitudes(start);
                 self.fill(&Passing { passage, integral: &integral, amplitudes }, attitudes, rates);
             }
-            Trajectory::Steady(_) | Trajectory::Gradient(_) | Trajectory::Integrated(_) | Trajectory::Libration(_) => {}
+            Trajectory::Steady(_) | Trajectory::Forced(_) => {}
         }
         Ok(())
     }

@@ -150,7 +150,7 @@ impl Motion {
         attitudes: &mut [Derivatives],
         rates: &mut [Derivatives],
     ) -> Result<(), Error> {
-        if matches!(self.trajectory, Trajectory::Integrated(_) | Trajectory::Gradient(_) | Trajectory::Libration(_)) {
+        if matches!(self.trajectory, Trajectory::Forced(_)) {
             return differences::fill(self, &self.in_scene(epoch, times), attitudes, rates);
         }
         let Some(polhode) = Polhode::new(self.scene.body(), self.scene.state()) else {

@@ -46,7 +46,7 @@ fn about_principal_axes(
     times: &[f64],
     (attitudes, rates): Output<'_>,
 ) -> Result<(), Error> {
-    if matches!(motion.trajectory, Trajectory::Integrated(_) | Trajectory::Gradient(_) | Trajectory::Libration(_)) {
+    if matches!(motion.trajectory, Trajectory::Forced(_)) {
         return differences::fill(motion, &motion.in_scene(epoch, times), attitudes, rates);
     }
     let Some(polhode) = Polhode::new(motion.scene.body(), motion.scene.state()) else {

@@ -1,6 +1,7 @@
 //! The motion under a gravity gradient by the averaged theory (theory §9).
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use super::free::{self, Preparation, representable, unused_order};
 use crate::error::{Error, TorqueMeasure};
@@ -10,6 +11,7 @@ use crate::gravity_gradient::request::Request;
 use crate::gravity_gradient::request::osculating;
 use crate::input::options::{Level, Method};
 use crate::input::scene::Scene;
+use crate::integration::integrated::verification_cost;
 use crate::motion::plan::{Plan, in_ascii};
 use crate::motion::solved::{Frequencies, Motion};
 use crate::motion::trajectory::Trajectory;
@@ -55,6 +57,7 @@ pub(super) fn motion(scene: Scene, polhode: Option<&Polhode>, orbits: &[Orbit]) 
     skipped.extend(unused.as_deref().map(in_ascii));
     skipped.extend(gradient.skipped());
     let mut plan = Plan::new(&scene, Mode::of(polhode), ratio, gradient.error + 4.0 * ROUNDING);
+    plan.verification = verification_cost(&scene);
     (plan.gradient, plan.skipped) = (Some(gradient.plan()), skipped);
     let reach = gradient.bound() * longitude / TAU;
     plan.reach = Some(reach).filter(|reach| *reach < DEFAULT_ROTATIONS);
@@ -66,7 +69,7 @@ pub(super) fn motion(scene: Scene, polhode: Option<&Polhode>, orbits: &[Orbit]) 
         precession: longitude + anomaly,
         angular_momentum: polhode.angular_momentum(scene.state().attitude),
         long_axis: polhode.long_axis,
-        trajectory: Trajectory::Gradient(Box::new(gradient)),
+        trajectory: Trajectory::Forced(Arc::new(gradient)),
         scene,
     };
     let fastest = orbits.iter().map(Orbit::mean_motion).fold(0.0, f64::max);

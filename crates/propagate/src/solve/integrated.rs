@@ -1,12 +1,13 @@
 //! The motion by numerical integration.
 
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::free::{self, Preparation};
 use crate::error::Error;
 use crate::input::options::Method;
 use crate::input::scene::Scene;
-use crate::integration::integrated::Integrated;
+use crate::integration::integrated::{Integrated, verification_cost};
 use crate::motion::plan::Plan;
 use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
@@ -26,6 +27,7 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, reason: String, stop: 
         error => error,
     })?;
     let mut plan = Plan::new(&scene, free.plan.mode, free.plan.separatrix_ratio, motion.error);
+    plan.verification = verification_cost(&scene);
     plan.method = Method::Integrated;
     plan.order = motion.order();
     plan.integration = Some(motion.plan());
@@ -33,5 +35,5 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, reason: String, stop: 
     if let Some(order) = scene.asked_order() {
         plan.skipped.push(format!("order {order}, which was asked for: it is one of the series"));
     }
-    Ok(Motion { scene, plan, trajectory: Trajectory::Integrated(Box::new(motion)), ..free })
+    Ok(Motion { scene, plan, trajectory: Trajectory::Forced(Arc::new(motion)), ..free })
 }

@@ -1,6 +1,7 @@
 //! The motion by the normal form about a spin–orbit resonance.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::free::{self, Preparation};
@@ -8,6 +9,7 @@ use super::integrated;
 use crate::error::Error;
 use crate::input::options::Method;
 use crate::input::scene::Scene;
+use crate::integration::integrated::verification_cost;
 use crate::libration::evaluate::LibrationEvaluator;
 use crate::libration::lock::Lock;
 use crate::libration::solution::{self, Wanted};
@@ -46,11 +48,12 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> 
     let polhode = Polhode::new(unforced.body(), unforced.state());
     let free = free::motion(unforced, polhode.as_ref(), Preparation::new(tables))?;
     let mut plan = Plan::new(&scene, free.plan.mode, free.plan.separatrix_ratio, libration.error());
+    plan.verification = verification_cost(&scene);
     plan.method = Method::Libration;
     plan.order = libration.order();
     plan.harmonics = libration.harmonics();
     plan.resonance = Some(libration.twice());
-    let trajectory = Trajectory::Libration(Box::new(LibrationEvaluator::new(libration)));
+    let trajectory = Trajectory::Forced(Arc::new(LibrationEvaluator::new(libration)));
     let mut motion = Motion { scene, plan, trajectory, ..free };
     let longest = reach[0].abs().max(reach[1].abs());
     let checked = if precesses { (longest / TAU).clamp(CHECKED[0], CHECKED[1]) } else { CHECKED[0] } * TAU;

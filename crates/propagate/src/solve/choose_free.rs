@@ -1,0 +1,37 @@
+//! The only method of a build without torques: the free motion.
+
+use std::sync::atomic::AtomicBool;
+
+use super::free::{self, Preparation};
+use crate::error::Error;
+use crate::input::options::Method;
+use crate::input::scene::Scene;
+use crate::motion::solved::Motion;
+use crate::torque_free::polhode::Polhode;
+use crate::torque_free::series::tables::SeriesTables;
+
+impl Scene {
+    /// Whether the scene is integrated without an attempt by theory: never, without the feature `torques`.
+    #[must_use]
+    pub fn needs_integration(&self) -> bool {
+        false
+    }
+}
+
+/// The motion of a scene about principal axes.
+///
+/// # Errors
+/// [`Error::NotBuilt`] for a scene with a torque or with a method that is not built, and those of the free motion.
+pub(super) fn motion(scene: Scene, tables: &SeriesTables, _: &AtomicBool) -> Result<Motion, Error> {
+    let method = scene.asked_method();
+    if matches!(method, Method::Integrated | Method::Libration) {
+        return Err(Error::NotBuilt { argument: "method", value: method.to_string() });
+    }
+    let [a, b, c] = scene.body().moments();
+    let bodies = scene.asked_disturbing().len();
+    if bodies > 0 && !(a == b && b == c) {
+        return Err(Error::NotBuilt { argument: "orbit", value: format!("{bodies} disturbing") });
+    }
+    let polhode = Polhode::new(scene.body(), scene.state());
+    free::motion(scene, polhode.as_ref(), Preparation::new(tables))
+}
