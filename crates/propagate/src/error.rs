@@ -12,7 +12,7 @@ use andoyer_series::error::{Facts, Short, facts};
 pub use andoyer_series::error::{Kind, Value};
 pub(crate) use duration::duration_in_words;
 pub use torque_measure::TorqueMeasure;
-#[cfg(test)]
+#[cfg(all(test, feature = "torques"))]
 pub(crate) use words::STEP_BYTES;
 use words::{
     advice, and_others, because, did_you_mean, distance, elsewhere, finite, four_digits, instead_of, rounded_up,

@@ -5,7 +5,8 @@
 //! that hill climbing finds, by family, mode and averaging. `bounds N SEED`: the error of N random scenes and the bound that the plan states, for both
 //! averagings and for second order, and what the integration loses of the free motion over the span. `table N SEED`: by n/spin and e, how many of N random
 //! scenes are served, the share of the torque's effect that is left, and the bound over the error. `safety N SEED [FAMILY]`: errors and estimates of N random scenes of all
-//! families and of the table, by each theory.
+//! families and of the table, by each theory. `attitudes N SEED`: attitudes of such scenes with all their digits; `compare BEFORE AFTER`: how far two such files of
+//! two versions of the code differ, for a change that should not change results.
 
 use std::f64::consts::TAU;
 use std::io::{self, Write};
@@ -288,9 +289,6 @@ fn table(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn st
                 };
                 let shares = sorted(|m| m.error / m.effect);
                 let ratios = sorted(|m| m.bound / m.error.max(1e-12));
-                let quantile = |values: &[f64], part: f64| {
-                    values.get((part * values.len() as f64) as usize).copied().unwrap_or(f64::NAN)
-                };
                 writeln!(
                     out,
                     "{level},{mean_motion},{eccentricity},{count},{},{:.1e},{:.1e},{:.1e},{:.1e}",
@@ -306,6 +304,12 @@ fn table(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn st
     Ok(())
 }
 
+/// A quantile of sorted values.
+fn quantile(values: &[f64], part: f64) -> f64 {
+    let place = (part * values.len() as f64) as usize;
+    values.get(place.min(values.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)
+}
+
 /// A scene of a table.
 fn tabled(random: &mut Uniform, mean_motion: f64, eccentricity: f64) -> Disturbed {
     let Setting { moments, azimuth, inclination, .. } = setting(random);
@@ -319,13 +323,12 @@ fn tabled(random: &mut Uniform, mean_motion: f64, eccentricity: f64) -> Disturbe
     Disturbed { averaging: Averaging::Spin, ..scene }
 }
 
-/// Errors and estimates of random scenes of all families and of the table.
-fn safety(
-    out: &mut impl Write,
+/// Calls `each` with random scenes of all families and of the table, or of one family: its name, whether the mode is the long-axis mode, and the scene.
+fn random_scenes(
     (count, seed): (usize, u64),
     only: Option<&str>,
+    mut each: impl FnMut(&str, bool, &Disturbed) -> io::Result<()>,
 ) -> Result<(), Box<dyn std::error::Error>> {
-    writeln!(out, "family,mode,averaging,level,n,e,error,bound,effect,lost,scene")?;
     let mut families: Vec<_> = FAMILIES.into_iter().chain(FURTHER_FAMILIES).collect();
     families.retain(|family| only.is_none_or(|name| name == family.name()));
     if families.is_empty() {
@@ -347,21 +350,90 @@ fn safety(
                 Some(family) => (family.name(), family.random(long_axis, theory, &mut draws.clone())),
                 None => ("table", Disturbed { averaging, level, ..table }),
             };
-            let Ok(measured) = scene.measured() else { continue };
-            let Measured { error, bound, effect, lost } = measured;
-            let Disturbed { moments, attitude, rates, orbit, span, .. } = scene;
-            writeln!(
-                out,
-                "{name},{},{averaging},{level},{:.2e},{:.3},{error:.3e},{bound:.3e},{effect:.2e},{lost:.1e},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {span}\"",
-                if long_axis { "long" } else { "short" },
-                orbit[0],
-                orbit[1],
-            )?;
+            each(name, long_axis, &scene)?;
         }
         for _ in 0..20 {
             random.draw();
         }
     }
+    Ok(())
+}
+
+/// Errors and estimates of random scenes.
+fn safety(out: &mut impl Write, numbers: (usize, u64), only: Option<&str>) -> Result<(), Box<dyn std::error::Error>> {
+    writeln!(out, "family,mode,averaging,level,n,e,error,bound,effect,lost,scene")?;
+    random_scenes(numbers, only, |name, long_axis, scene| {
+        let Ok(measured) = scene.measured() else { return Ok(()) };
+        let Measured { error, bound, effect, lost } = measured;
+        let Disturbed { moments, attitude, rates, orbit, span, averaging, level, .. } = scene;
+        writeln!(
+            out,
+            "{name},{},{averaging},{level},{:.2e},{:.3},{error:.3e},{bound:.3e},{effect:.2e},{lost:.1e},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {span}\"",
+            if long_axis { "long" } else { "short" },
+            orbit[0],
+            orbit[1],
+        )
+    })
+}
+
+/// Attitudes of random scenes with all their digits, for `compare`.
+fn attitudes(out: &mut impl Write, numbers: (usize, u64)) -> Result<(), Box<dyn std::error::Error>> {
+    random_scenes(numbers, None, |name, _, scene| {
+        let span = scene.span;
+        let solved = scene.solve().and_then(|motion| {
+            let at = |k: u32| motion.at(span * f64::from(k) / 8.0).map(|sample| sample.attitude.coords);
+            Ok((motion.plan().error_bound(), (0..=8).map(at).collect::<Result<Vec<_>, _>>()?))
+        });
+        match solved {
+            Ok((bound, attitudes)) => {
+                let numbers = attitudes.iter().flat_map(|q| q.iter()).map(|x| format!("{x:e}"));
+                writeln!(out, "{name},{},{bound:e},{}", scene.level, numbers.collect::<Vec<_>>().join(","))
+            }
+            Err(error) => writeln!(out, "{name},{},{error}", scene.level),
+        }
+    })
+}
+
+/// Compares two files of `attitudes`: of versions that should differ by rounding alone.
+fn compare(out: &mut impl Write, [one, other]: [&str; 2]) -> Result<(), Box<dyn std::error::Error>> {
+    let [one, other] = [std::fs::read_to_string(one)?, std::fs::read_to_string(other)?];
+    let (mut shares, mut larger, mut refused, mut worst) = (Vec::new(), Vec::new(), 0, (0.0_f64, String::new()));
+    for (one, other) in one.lines().zip(other.lines()) {
+        let [before, after] = [one, other].map(|line| line.splitn(4, ',').collect::<Vec<_>>());
+        if before.len() < 4 || after.len() < 4 || before[2].parse::<f64>().is_err() || after[2].parse::<f64>().is_err()
+        {
+            refused += usize::from(before != after);
+            continue;
+        }
+        let bounds: [f64; 2] = [before[2].parse()?, after[2].parse()?];
+        let numbers = |text: &str| text.split(',').map(str::parse).collect::<Result<Vec<f64>, _>>();
+        let (before, after) = (numbers(before[3])?, numbers(after[3])?);
+        let angle = before.chunks(4).zip(after.chunks(4)).map(|(p, q)| {
+            let distance = |sign: f64| p.iter().zip(q).map(|(p, q)| (p - sign * q).powi(2)).sum::<f64>().sqrt();
+            2.0 * distance(1.0).min(distance(-1.0))
+        });
+        let angle = angle.fold(0.0, f64::max);
+        shares.push(angle);
+        larger.push(bounds[1] / bounds[0]);
+        if angle / bounds[0] > worst.0 {
+            worst = (angle / bounds[0], one.chars().take(60).collect());
+        }
+    }
+    shares.sort_by(f64::total_cmp);
+    larger.sort_by(f64::total_cmp);
+    writeln!(
+        out,
+        "{} scenes; angle [rad]: median {:.1e}, 99 % {:.1e}, largest {:.1e}; largest angle over the bound {:.1e} ({}); bound after over before: least {:.9}, \
+         largest {:.9}; refused by one alone or with another sentence: {refused}",
+        shares.len(),
+        quantile(&shares, 0.5),
+        quantile(&shares, 0.99),
+        quantile(&shares, 1.0),
+        worst.0,
+        worst.1,
+        quantile(&larger, 0.0),
+        quantile(&larger, 1.0),
+    )?;
     Ok(())
 }
 
@@ -374,6 +446,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ["levels"] => levels(&mut out),
         ["safety", count, seed] => safety(&mut out, (count.parse()?, seed.parse()?), None),
         ["safety", count, seed, family] => safety(&mut out, (count.parse()?, seed.parse()?), Some(family)),
+        ["attitudes", count, seed] => attitudes(&mut out, (count.parse()?, seed.parse()?)),
+        ["compare", one, other] => compare(&mut out, [one, other]),
         ["climb", starts, steps, seed] => climbs(&mut out, (starts.parse()?, steps.parse()?, seed.parse()?), None),
         ["climb", starts, steps, seed, family] => {
             climbs(&mut out, (starts.parse()?, steps.parse()?, seed.parse()?), Some(family))
@@ -381,7 +455,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ["table", count, seed] => table(&mut out, count.parse()?, seed.parse()?),
         ["bounds", count, seed] => bounds(&mut out, count.parse()?, seed.parse()?),
         _ => Err(
-            "usage: gradient cases | gradient levels | gradient safety COUNT SEED [FAMILY] | gradient bounds COUNT SEED | gradient table COUNT SEED | gradient climb STARTS STEPS SEED [FAMILY]"
+            "usage: gradient cases | gradient levels | gradient safety COUNT SEED [FAMILY] | gradient attitudes COUNT SEED | gradient compare FILE FILE | gradient bounds COUNT SEED | gradient table COUNT SEED | gradient climb STARTS STEPS SEED [FAMILY]"
                 .into(),
         ),
     }

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use andoyer_double::DoubleDouble;
 
 use crate::error::Error;
-use crate::gravity_gradient::averaged::averages::Slow;
+use crate::gravity_gradient::averaged::averages::AveragedMotion;
 use crate::gravity_gradient::averaged::bodies::most_arcs;
 use crate::gravity_gradient::averaged::spin::MOST_QUARTERS;
 use crate::gravity_gradient::body::cayley_klein::WobbleSeries;
@@ -29,12 +29,12 @@ use crate::torque_free::polhode::Frame;
 
 /// A motion under the gravity gradient.
 #[derive(Clone, Debug)]
-pub(crate) struct Gradient {
+pub(crate) struct DisturbedMotion {
     pub(crate) inertia: Inertia,
     pub(crate) pair: [WobbleSeries; 2],
     /// The path of each disturbing body, and its corrections. There is at least one.
     pub(crate) bodies: Vec<(Path, Corrections)>,
-    pub(crate) slow: Slow,
+    pub(crate) slow: AveragedMotion,
     /// The constant part of p e^(−iℓ′): √σ, and what corrects the error of first order at the epoch.
     pub(crate) circle: C64,
     /// The constant part of M: the mean M, and what corrects the error of first order at the epoch.
@@ -53,7 +53,7 @@ pub(crate) struct Gradient {
     pub(crate) error: f64,
 }
 
-impl Gradient {
+impl DisturbedMotion {
     /// The motion of a draft: the constants for which it passes through the state are found here.
     ///
     /// # Errors
@@ -106,16 +106,18 @@ impl Gradient {
 
     /// Whether the averaged equations are solved for each quarter of an orbit.
     pub(crate) fn is_by_quarters(&self) -> bool {
-        matches!(self.slow, Slow::Spin(_))
+        matches!(self.slow, AveragedMotion::Spin(_))
     }
 
     /// The longest time from the epoch for which the averaged equations are solved, in the user's unit.
     pub(crate) fn bound(&self) -> f64 {
         match &self.slow {
-            Slow::Spin(_) => MOST_ORBITS as f64 / self.bodies[0].0.mean_anomaly.frequency(),
-            Slow::Orbit(precession) => precession.bound(MOST_QUARTERS),
+            AveragedMotion::Spin(_) => MOST_ORBITS as f64 / self.bodies[0].0.mean_anomaly.frequency(),
+            AveragedMotion::Orbit(precession) => precession.bound(MOST_QUARTERS),
             // In a unit of time there are no more arcs than in all orbits together.
-            Slow::Bodies(_) => MOST_QUARTERS as f64 / self.bodies.iter().map(|(path, _)| most_arcs(path)).sum::<f64>(),
+            AveragedMotion::Bodies(_) => {
+                MOST_QUARTERS as f64 / self.bodies.iter().map(|(path, _)| most_arcs(path)).sum::<f64>()
+            }
         }
     }
 
@@ -125,8 +127,8 @@ impl Gradient {
         let neglected = self.bodies.iter().map(|(_, corrections)| corrections.neglected);
         GradientPlan {
             averaging: match self.slow {
-                Slow::Spin(_) | Slow::Bodies(_) => Averaging::Spin,
-                Slow::Orbit(_) => Averaging::Orbit,
+                AveragedMotion::Spin(_) | AveragedMotion::Bodies(_) => Averaging::Spin,
+                AveragedMotion::Orbit(_) => Averaging::Orbit,
             },
             level: self.level,
             terms: self.bodies.iter().map(|(_, corrections)| corrections.count).sum(),

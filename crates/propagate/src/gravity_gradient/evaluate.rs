@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use pulp::{Arch, NullaryFnOnce};
 
-use crate::gravity_gradient::disturbed::Gradient;
+use crate::gravity_gradient::disturbed::DisturbedMotion;
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::generator::{Correction, MeanLanes};
@@ -38,7 +38,7 @@ pub(crate) struct Osculating<S: InstructionSet> {
     pub(crate) frame: QuaternionLanes<S>,
 }
 
-impl Gradient {
+impl DisturbedMotion {
     /// The osculating variables at times after the epoch. The function is compiled separately, once for each instruction set.
     #[inline(always)]
     pub(crate) fn state<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
@@ -83,7 +83,7 @@ impl Gradient {
     }
 }
 
-impl InLanes for Gradient {
+impl InLanes for DisturbedMotion {
     #[inline(always)]
     fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
         &self,
@@ -109,7 +109,7 @@ impl InLanes for Gradient {
     }
 }
 
-impl Forced for Gradient {
+impl Forced for DisturbedMotion {
     fn name(&self) -> &'static str {
         "a motion under a torque"
     }
@@ -155,9 +155,9 @@ impl<S: InstructionSet> NullaryFnOnce for OtherBody<'_, S> {
     }
 }
 
-/// [`Gradient::state`] as a task that is compiled separately.
+/// [`DisturbedMotion::state`] as a task that is compiled separately.
 struct GradientAt<'a, S: InstructionSet> {
-    gradient: &'a Gradient,
+    gradient: &'a DisturbedMotion,
     elapsed: Elapsed<S>,
 }
 
@@ -183,7 +183,7 @@ fn small_turn<S: InstructionSet>(x: Lanes<S>) -> ComplexLanes<S> {
 
 /// Angular momenta at many times.
 struct Momenta<'a> {
-    gradient: &'a Gradient,
+    gradient: &'a DisturbedMotion,
     times: &'a [f64],
     epoch: f64,
     out: &'a mut [[f64; 3]],

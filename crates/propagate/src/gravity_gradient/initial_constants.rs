@@ -7,8 +7,8 @@
 use nalgebra::{Matrix2, Quaternion, UnitQuaternion, Vector2, Vector3};
 use num_complex::Complex;
 
-use crate::gravity_gradient::averaged::averages::Slow;
-use crate::gravity_gradient::disturbed::Gradient;
+use crate::gravity_gradient::averaged::averages::AveragedMotion;
+use crate::gravity_gradient::disturbed::DisturbedMotion;
 use crate::gravity_gradient::evaluate::Osculating;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::lanes::Lanes;
@@ -17,7 +17,7 @@ use crate::torque_free::polhode::Polhode;
 /// Largest number of steps to the constants. Each step reduces the error by the size of the torque, or by the step of the differences.
 const MOST_STEPS: usize = 16;
 
-impl Gradient {
+impl DisturbedMotion {
     /// Finds the constants for which the motion has this attitude and the polhode's angular momentum at the epoch. `slow` solves the averaged motion from a
     /// frame.
     pub(crate) fn start_at(
@@ -25,7 +25,7 @@ impl Gradient {
         polhode: &Polhode,
         attitude: UnitQuaternion<f64>,
         mut frame: UnitQuaternion<f64>,
-        slow: impl Fn(UnitQuaternion<f64>) -> Slow,
+        slow: impl Fn(UnitQuaternion<f64>) -> AveragedMotion,
     ) {
         let none = Lanes::splat(pulp::Scalar, 0.0);
         let momentum = polhode.invariants.momentum.to_f64();

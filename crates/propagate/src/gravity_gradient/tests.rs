@@ -110,14 +110,14 @@ const MEAN_MOTION: f64 = 1e-3;
 
 /// A mean state, and the position of the disturbing body.
 #[derive(Clone)]
-struct Stand {
+struct SecondOrderState {
     polhode: Polhode,
     orbit: Orbit,
     mean: Mean,
     place: Place<pulp::Scalar>,
 }
 
-impl Stand {
+impl SecondOrderState {
     fn all() -> [Self; 3] {
         [
             Self::new([0.7, 0.85, 1.0], [0.1, 0.05, 1.0]),
@@ -150,8 +150,8 @@ impl Stand {
     fn change(&self, mean: &Mean, series: Option<&OrbitSeries>) -> PeriodicChange {
         let inertia = Inertia::new(&self.polhode, mean.p.norm_sqr(), mean.momentum);
         let whole = whole(&self.orbit, self.mean.frame * Vector3::z());
-        let elliptic = Disturbance { duration: 1e5, series: series.cloned(), ..whole };
-        Corrections::new(&inertia, &elliptic).expect("no resonance").at(mean, &self.place)
+        let disturbance = Disturbance { duration: 1e5, series: series.cloned(), ..whole };
+        Corrections::new(&inertia, &disturbance).expect("no resonance").at(mean, &self.place)
     }
 
     /// Central difference of δp, δM, δy′ and δk along axes 1 and 2 when the mean state changes by ±h.
@@ -169,8 +169,10 @@ impl Stand {
 #[test]
 fn corrections_keep_the_poisson_brackets_to_first_order() {
     // {p; p̄} = i/M, {p; y′} = p/2M, {y′; M} = 1, {k1; k2} = k3/M, all others 0. For δf = {f; W}, Jacobi's identity is {δf; g} + {f; δg} = δ{f; g}.
-    let series = Stand::series();
-    for (stand, series) in Stand::all().into_iter().flat_map(|stand| [(stand.clone(), None), (stand, Some(&series))]) {
+    let series = SecondOrderState::series();
+    for (stand, series) in
+        SecondOrderState::all().into_iter().flat_map(|stand| [(stand.clone(), None), (stand, Some(&series))])
+    {
         let Mean { p, momentum, .. } = stand.mean;
         let change = stand.change(&stand.mean, series);
         let by_x = stand.slope(series, |m, h| Mean { p: m.p + h, ..*m });
@@ -221,8 +223,8 @@ fn corrections_keep_the_poisson_brackets_to_first_order() {
 #[test]
 fn exact_divisors_are_the_limit_of_the_sums_over_time_derivatives() {
     // n/Ω is at most 0.02: the eighth term of the sums, with twice the true anomaly at the pericentre, is 1e-9 of the first.
-    let series = Stand::series();
-    for stand in Stand::all() {
+    let series = SecondOrderState::series();
+    for stand in SecondOrderState::all() {
         let [sums, exact] = [None, Some(&series)].map(|series| stand.change(&stand.mean, series));
         let size = sums.p.norm() + sums.longitude.abs();
         let gaps = [

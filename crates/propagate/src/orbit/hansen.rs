@@ -103,6 +103,8 @@ fn coefficients(eccentricity: f64, count: usize, more_points: usize) -> Vec<[f64
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
 
     fn largest(eccentricity: f64, number: usize) -> f64 {

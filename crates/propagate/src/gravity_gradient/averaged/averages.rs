@@ -42,9 +42,10 @@ impl Averages {
         let MeanMotion { mean, inertia, .. } = motion;
         let (axial, axial_slope) = level.tensor(inertia, 0, 0);
         let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) / mean.momentum;
-        let torques = orbits.iter().map(|elliptic| {
-            let second = (level == Level::SecondOrder).then(|| mean_elements::hamiltonian(inertia, elliptic, steady));
-            AveragedTorque::new(elliptic, delta, second)
+        let torques = orbits.iter().map(|disturbance| {
+            let second =
+                (level == Level::SecondOrder).then(|| mean_elements::hamiltonian(inertia, disturbance, steady));
+            AveragedTorque::new(disturbance, delta, second)
         });
         Self { torques: torques.collect(), delta, slope: -0.5 * 1.5 * axial_slope / mean.momentum }
     }
@@ -72,14 +73,14 @@ impl Averages {
         &self,
         response: &Sensitivity,
         inertia: &Inertia,
-        elliptic: &Disturbance<'_>,
+        disturbance: &Disturbance<'_>,
         level: Level,
     ) -> f64 {
         let torque = &self.torques[0];
         let precession = torque.precession.abs();
         let phase = self.slope.abs() * (response.visible + inertia.sigma) * torque.phase;
         let growing = if level == Level::SecondOrder { precession } else { 1.0 };
-        precession * (precession + 6.0 * phase) * (1.0 + growing * elliptic.mean_motion * elliptic.duration)
+        precession * (precession + 6.0 * phase) * (1.0 + growing * disturbance.mean_motion * disturbance.duration)
     }
 
     /// The averaged motion from a frame at the epoch.
@@ -89,26 +90,26 @@ impl Averages {
         (request, by_orbit): (&Request<'_>, bool),
         orbits: &[Disturbance<'_>],
         (unit, factors): (f64, [f64; 2]),
-    ) -> Slow {
+    ) -> AveragedMotion {
         let torque = &self.torques[0];
         match (request.is_fixed(), by_orbit) {
             (false, _) => {
                 let bodies = orbits.iter().map(|body| (body.path.clone(), body.strength() / 1.5 * unit));
                 let bodies = Bodies { bodies: bodies.collect(), delta: self.delta };
-                Slow::Bodies(Box::new(Arcs::new(bodies, &frame)))
+                AveragedMotion::Bodies(Box::new(Arcs::new(bodies, &frame)))
             }
             (true, true) => {
                 let place = &orbits[0].start.place;
-                Slow::Orbit(Box::new(Precession::new(torque.clone(), frame, place, (unit, factors))))
+                AveragedMotion::Orbit(Box::new(Precession::new(torque.clone(), frame, place, (unit, factors))))
             }
-            (true, false) => Slow::Spin(Box::new(Spin::new(torque.clone(), frame, &orbits[0].start))),
+            (true, false) => AveragedMotion::Spin(Box::new(Spin::new(torque.clone(), frame, &orbits[0].start))),
         }
     }
 }
 
 /// The averaged motion.
 #[derive(Clone, Debug)]
-pub(crate) enum Slow {
+pub(crate) enum AveragedMotion {
     /// Averaged over the rotation only.
     Spin(Box<Spin>),
     /// Averaged over the rotation and the orbit.
@@ -117,7 +118,7 @@ pub(crate) enum Slow {
     Bodies(Box<Arcs<Bodies>>),
 }
 
-impl Slow {
+impl AveragedMotion {
     /// The memory of what is solved so far, in bytes.
     pub(crate) fn memory(&self) -> usize {
         match self {

@@ -64,30 +64,35 @@ impl Corrections {
     /// # Errors
     /// - [`Error::Resonance`] if a resonant term has an effect that cannot be corrected.
     /// - [`Error::TorqueTooStrong`] if the corrections are not small.
-    pub(crate) fn new(inertia: &Inertia, elliptic: &Disturbance<'_>) -> Result<Self, Error> {
-        let terms = Terms::new(inertia, elliptic);
-        Self::of(&terms, inertia, elliptic, terms.size)
+    pub(crate) fn new(inertia: &Inertia, disturbance: &Disturbance<'_>) -> Result<Self, Error> {
+        let terms = Terms::new(inertia, disturbance);
+        Self::of(&terms, inertia, disturbance, terms.size)
     }
 
     /// The corrections of a mean motion for one of several bodies. The sizes of the terms of all bodies that are not slow sum to `whole`.
     ///
     /// # Errors
     /// As [`Corrections::new`].
-    pub(crate) fn of(terms: &Terms, inertia: &Inertia, elliptic: &Disturbance<'_>, whole: f64) -> Result<Self, Error> {
+    pub(crate) fn of(
+        terms: &Terms,
+        inertia: &Inertia,
+        disturbance: &Disturbance<'_>,
+        whole: f64,
+    ) -> Result<Self, Error> {
         if whole > LARGEST_SIZE {
             let measure = TorqueMeasure::Corrections;
             return Err(Error::TorqueTooStrong { measure, size: whole, bound: LARGEST_SIZE });
         }
-        let regimes = Regimes::new(terms, inertia, elliptic, whole);
+        let regimes = Regimes::new(terms, inertia, disturbance, whole);
         let chosen: Vec<_> = terms.all.iter().map(|term| (term, regimes.of(term))).collect();
         let effects = chosen.iter().map(|(term, regime)| (*term, regimes.uncorrected(term, regime)));
-        let allowed = elliptic.ledger.refused.max(second_order(whole, &terms.response, elliptic.duration));
+        let allowed = disturbance.ledger.refused.max(second_order(whole, &terms.response, disturbance.duration));
         let resonant = regimes.total(effects, allowed)?;
         let mut collected = Collected::default();
         for (term, regime) in &chosen {
-            collected.add(term, regime, inertia, (&regimes, elliptic));
+            collected.add(term, regime, inertia, (&regimes, disturbance));
         }
-        let generator = collected.generator(inertia, (&regimes, elliptic));
+        let generator = collected.generator(inertia, (&regimes, disturbance));
         let Collected { squares, dropped, neglected, count, .. } = collected;
         Ok(Self {
             generator,
@@ -95,7 +100,7 @@ impl Corrections {
             rms: squares.sqrt(),
             dropped,
             omitted: terms.omitted.iter().map(|term| regimes.whole(term)).sum(),
-            axial_omitted: axial_omitted(inertia, elliptic),
+            axial_omitted: axial_omitted(inertia, disturbance),
             size: terms.size,
             count,
             neglected,
@@ -147,13 +152,18 @@ impl Collected {
         term: &SizedTerm,
         regime: &Regime,
         inertia: &Inertia,
-        (regimes, elliptic): (&Regimes<'_>, &Disturbance<'_>),
+        (regimes, disturbance): (&Regimes<'_>, &Disturbance<'_>),
     ) {
         let growth = regimes.growth(term.term.multiple);
-        match (*regime, &elliptic.series) {
+        match (*regime, &disturbance.series) {
             (Regime::Exact { resonant, size }, Some(series)) => {
                 let divisors = regimes.divisors(term).with_resonant(resonant);
-                self.exact.push(ExactTerm::new(term, inertia, (series, divisors), (regimes.nothing, elliptic.unit())));
+                self.exact.push(ExactTerm::new(
+                    term,
+                    inertia,
+                    (series, divisors),
+                    (regimes.nothing, disturbance.unit()),
+                ));
                 self.squares += size * size;
                 self.dropped += growth * regimes.nothing;
                 self.count += 1;
@@ -165,7 +175,7 @@ impl Collected {
                 self.orders = self.orders.max(orders);
                 for (j, amplitude) in self.amplitudes.iter_mut().enumerate().take(orders) {
                     let of_derivative = term.size() / term.frequency.abs().powi(j as i32); // j < ORDERS
-                    *amplitude += (j + 1) as f64 * of_derivative / elliptic.envelope.span[0];
+                    *amplitude += (j + 1) as f64 * of_derivative / disturbance.envelope.span[0];
                 }
                 self.sums[term.term.multiple as usize].add(term, inertia, orders); // 0 ≤ m ≤ 2
                 self.count += 1;
@@ -180,23 +190,23 @@ impl Collected {
     }
 
     /// The generating function, without coefficients of the time derivatives that are negligible.
-    fn generator(&mut self, inertia: &Inertia, (regimes, elliptic): (&Regimes<'_>, &Disturbance<'_>)) -> Generator {
+    fn generator(&mut self, inertia: &Inertia, (regimes, disturbance): (&Regimes<'_>, &Disturbance<'_>)) -> Generator {
         let bounds = self.amplitudes.map(|amplitude| SMALLEST_COEFFICIENT * regimes.nothing / amplitude);
-        let (orbital, cut) = elliptic.envelope.orbital.cut(&bounds[..self.orders]);
+        let (orbital, cut) = disturbance.envelope.orbital.cut(&bounds[..self.orders]);
         let cut: f64 = cut.iter().zip(&self.amplitudes).map(|(cut, amplitude)| cut * amplitude).sum();
         self.dropped += 2.0 * regimes.growth(1) * cut;
-        let [first, second, _] = elliptic.path.axes;
+        let [first, second, _] = disturbance.path.axes;
         let factors =
-            TorqueScale { strength: elliptic.strength(), root: inertia.sigma.sqrt(), momentum: inertia.momentum };
+            TorqueScale { strength: disturbance.strength(), root: inertia.sigma.sqrt(), momentum: inertia.momentum };
         let (sums, exact) = (std::mem::take(&mut self.sums), std::mem::take(&mut self.exact));
         Generator::new(sums, exact, (orbital, [first, second]), factors)
     }
 }
 
 /// The parts of ⟨T33⟩ and of its slope that the level omits, times the mass fraction over M.
-fn axial_omitted(inertia: &Inertia, elliptic: &Disturbance<'_>) -> [f64; 2] {
-    let per_momentum = elliptic.orbit.disturbing_fraction() / inertia.momentum;
-    let (axial, slope) = elliptic.level.omitted(inertia, 0, 0);
+fn axial_omitted(inertia: &Inertia, disturbance: &Disturbance<'_>) -> [f64; 2] {
+    let per_momentum = disturbance.orbit.disturbing_fraction() / inertia.momentum;
+    let (axial, slope) = disturbance.level.omitted(inertia, 0, 0);
     [axial, slope].map(|part| part.abs() * per_momentum)
 }
 

@@ -26,9 +26,9 @@ pub(crate) struct MeanMotion {
 
 /// The corrections for each body at a mean motion.
 fn corrections_of(inertia: &Inertia, orbits: &[Disturbance<'_>]) -> Result<Vec<Corrections>, Error> {
-    let all: Vec<_> = orbits.iter().map(|elliptic| Terms::new(inertia, elliptic)).collect();
+    let all: Vec<_> = orbits.iter().map(|disturbance| Terms::new(inertia, disturbance)).collect();
     let whole = all.iter().map(|terms| terms.size).sum();
-    all.iter().zip(orbits).map(|(terms, elliptic)| Corrections::of(terms, inertia, elliptic, whole)).collect()
+    all.iter().zip(orbits).map(|(terms, disturbance)| Corrections::of(terms, inertia, disturbance, whole)).collect()
 }
 
 /// The mean variables whose corrections give a state, by fixed-point iteration.
@@ -80,9 +80,9 @@ pub(crate) fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f
 /// Checks that the torques are weak enough for first order.
 pub(crate) fn weak_enough(polhode: &Polhode, sigma: f64, orbits: &[Disturbance<'_>]) -> Result<(), Error> {
     let momentum = polhode.invariants.momentum.to_f64();
-    let size = |elliptic: &Disturbance<'_>| {
-        let share = elliptic.envelope.span[0] / elliptic.envelope.most[0];
-        share * strongest_torque(polhode, elliptic.orbit, elliptic.mean_motion / momentum)
+    let size = |disturbance: &Disturbance<'_>| {
+        let share = disturbance.envelope.span[0] / disturbance.envelope.most[0];
+        share * strongest_torque(polhode, disturbance.orbit, disturbance.mean_motion / momentum)
     };
     let size = orbits.iter().map(size).sum::<f64>();
     if size <= STRONGEST {

@@ -37,13 +37,17 @@ impl SteadyRates {
     pub(crate) fn new(
         inertia: &Inertia,
         frame: &UnitQuaternion<f64>,
-        elliptic: &Disturbance<'_>,
+        disturbance: &Disturbance<'_>,
         terms: (&[ExactTerm], &[Term]),
     ) -> Self {
         let rates = |series: &OrbitSeries| {
-            Remainder::new(inertia, frame, (elliptic, series), terms).rates(inertia, frame, &elliptic.path.axes[2])
+            Remainder::new(inertia, frame, (disturbance, series), terms).rates(
+                inertia,
+                frame,
+                &disturbance.path.axes[2],
+            )
         };
-        elliptic.series.as_ref().map(rates).unwrap_or_default()
+        disturbance.series.as_ref().map(rates).unwrap_or_default()
     }
 }
 
@@ -61,7 +65,7 @@ impl Remainder {
     pub(crate) fn new(
         inertia: &Inertia,
         frame: &UnitQuaternion<f64>,
-        (elliptic, series): (&Disturbance<'_>, &OrbitSeries),
+        (disturbance, series): (&Disturbance<'_>, &OrbitSeries),
         (exact, summed): (&[ExactTerm], &[Term]),
     ) -> Self {
         let divisors = |term: &Term| {
@@ -71,7 +75,7 @@ impl Remainder {
         let slow = exact.iter().filter(|term| term.divisors.slow);
         let slow = slow.map(|term| (Term::new(inertia, term.numbers.0, term.numbers.1), Some(&term.divisors)));
         let terms: Vec<_> = slow.chain(summed.iter().map(|term| (*term, divisors(term)))).collect();
-        let (tensors, _) = products_at(frame, elliptic.orbit.axes());
+        let (tensors, _) = products_at(frame, disturbance.orbit.axes());
         let tensors = tensors.map(|tensor| [tensor, about_first(&tensor), about_second(&tensor)]);
         let of_harmonic = |multiple: i32, j: i32| {
             let coefficients = series.at(j);
@@ -80,7 +84,7 @@ impl Remainder {
                 std::array::from_fn(|i| coefficients.iter().zip(&parts).map(|(c, part)| c * part[i]).sum())
             }))
         };
-        let (highest, scale) = (highest(series), elliptic.strength().powi(2));
+        let (highest, scale) = (highest(series), disturbance.strength().powi(2));
         let product = |[a, b]: [f64; 2], [c, d]: [f64; 2]| scale * (a * c + b * d);
         let mut sums = Self::default();
         for multiple in 0..=2 {
@@ -88,14 +92,14 @@ impl Remainder {
             for (term, divisors) in terms.iter().filter(|(term, _)| term.multiple == multiple) {
                 let omega = inertia.momentum * term.frequency[0];
                 for (j, [still, turned @ ..]) in &harmonics {
-                    let step = f64::from(*j) * elliptic.mean_motion;
+                    let step = f64::from(*j) * disturbance.mean_motion;
                     let of_frequency = match divisors {
                         Some(divisors) if divisors.resonant == Some(*j) && divisors.slow => continue,
                         Some(divisors) if divisors.resonant == Some(*j) => closed_form(omega, step).map(|part| -part),
                         // One divisor for all parts of the harmonic. The error is part of that of the shift.
                         Some(divisors) if divisors.slow => reciprocal(divisors.at(*j, 2 * j.signum())),
                         Some(divisors) if *j != 0 => beyond(omega, step, divisors.at(*j, 2 * j.signum())),
-                        None if *j != 0 && (omega + step).abs() > NEAREST_IN_K2 * elliptic.mean_motion => {
+                        None if *j != 0 && (omega + step).abs() > NEAREST_IN_K2 * disturbance.mean_motion => {
                             beyond(omega, step, omega + step)
                         }
                         _ => continue,

@@ -3,7 +3,7 @@
 use super::k2::Hamiltonian;
 use super::k2_remainder::SteadyRates;
 use super::pair_harmonics::{OrbitHarmonics, Parts};
-use super::pair_terms::{PairTerm, Stand};
+use super::pair_terms::{PairTerm, SecondOrderState};
 use super::pairs::{Actions, OrbitParts, second_actions};
 use crate::error::Error;
 use crate::gravity_gradient::body::inertia::Inertia;
@@ -42,23 +42,27 @@ impl SecondOrderData {
         first: &MeanMotion,
         state: &Mean,
         start: &Position<pulp::Scalar>,
-        elliptic: &Disturbance<'_>,
+        disturbance: &Disturbance<'_>,
     ) -> Self {
         let MeanMotion { mean, change, inertia, corrections } = first;
         let exact = &corrections[0].generator.exact[..];
-        let slow_limit = slow_limit(elliptic);
-        let stand = Stand::new(inertia, mean, &start.place, elliptic);
-        let harmonics = OrbitHarmonics::new(mean, &start.place, elliptic);
+        let slow_limit = slow_limit(disturbance);
+        let at_epoch = SecondOrderState::new(inertia, mean, &start.place, disturbance);
+        let harmonics = OrbitHarmonics::new(mean, &start.place, disturbance);
         let mut terms = fast_terms(inertia, CUTOFF * CUTOFF, slow_limit);
         if harmonics.is_some() {
             terms.extend(slow_terms(inertia, slow_limit));
         }
-        let first = first_actions(&stand, &terms, harmonics.as_ref().map(|harmonics| (harmonics, exact)));
-        let steady =
-            SteadyRates::new(inertia, &mean.frame, elliptic, (exact, &fast_terms(inertia, CUTOFF.sqrt(), slow_limit)));
+        let first = first_actions(&at_epoch, &terms, harmonics.as_ref().map(|harmonics| (harmonics, exact)));
+        let steady = SteadyRates::new(
+            inertia,
+            &mean.frame,
+            disturbance,
+            (exact, &fast_terms(inertia, CUTOFF.sqrt(), slow_limit)),
+        );
         let terms = fast_terms(inertia, CUTOFF, slow_limit);
         let exact = harmonics.as_ref().map(|harmonics| split(inertia, exact, harmonics)).unwrap_or_default();
-        let second = second_actions(&stand, &terms, &exact);
+        let second = second_actions(&at_epoch, &terms, &exact);
         let turn = if mean.p == C64::default() { C64::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
         let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
         // The corrections drop terms and truncate sums. `lacking` is M of all terms less M of the corrections.
@@ -85,21 +89,21 @@ impl SecondOrderData {
         &self,
         polhode: &Polhode,
         first: &MeanMotion,
-        elliptic: &Disturbance<'_>,
+        disturbance: &Disturbance<'_>,
         level: Level,
     ) -> Result<(MeanMotion, SteadyRates, [f64; 2]), Error> {
         let EpochMean { mean, momentum, left } = self.both[usize::from(level == Level::SecondOrder)];
         let inertia = first.inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
-        let corrections = vec![Corrections::new(&inertia, elliptic)?];
+        let corrections = vec![Corrections::new(&inertia, disturbance)?];
         let change = PeriodicChange { momentum, ..first.change };
         Ok((MeanMotion { mean, change, inertia, corrections }, self.steady, left))
     }
 }
 
 /// ⟨D⟩ + K2 at a mean motion.
-pub(crate) fn hamiltonian(inertia: &Inertia, elliptic: &Disturbance<'_>, steady: SteadyRates) -> Hamiltonian {
-    let terms = fast_terms(inertia, CUTOFF, slow_limit(elliptic));
-    Hamiltonian { steady, ..Hamiltonian::new(inertia, &terms, elliptic.strength()) }
+pub(crate) fn hamiltonian(inertia: &Inertia, disturbance: &Disturbance<'_>, steady: SteadyRates) -> Hamiltonian {
+    let terms = fast_terms(inertia, CUTOFF, slow_limit(disturbance));
+    Hamiltonian { steady, ..Hamiltonian::new(inertia, &terms, disturbance.strength()) }
 }
 
 /// The terms with exact divisors, split into harmonics.
@@ -112,16 +116,20 @@ fn split(inertia: &Inertia, exact: &[ExactTerm], harmonics: &OrbitHarmonics) -> 
 }
 
 /// δM and δL of first order, and their truncation errors by the sums over time derivatives.
-fn first_actions(stand: &Stand<'_>, terms: &[Term], harmonics: Option<(&OrbitHarmonics, &[ExactTerm])>) -> Actions {
+fn first_actions(
+    at_epoch: &SecondOrderState<'_>,
+    terms: &[Term],
+    harmonics: Option<(&OrbitHarmonics, &[ExactTerm])>,
+) -> Actions {
     let mut actions = Actions::default();
     for term in terms {
-        let row = PairTerm::of(stand, term, Parts::default());
+        let row = PairTerm::of(at_epoch, term, Parts::default());
         let (value, rest) = match harmonics {
             Some((harmonics, exact)) => {
                 let exact = exact.iter().find(|other| other.numbers == (term.harmonic, term.multiple));
                 (harmonics.solution(row.frequency[0], term.multiple, exact), 0.0)
             }
-            None => row.solution(stand, term.multiple),
+            None => row.solution(at_epoch, term.multiple),
         };
         // A term and its conjugate: δM is m times 2 Re(−iW), and δL is h times.
         let amplitude = 2.0 * row.weight * row.amplitude[0];

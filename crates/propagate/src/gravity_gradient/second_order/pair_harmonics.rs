@@ -107,8 +107,8 @@ pub(crate) struct OrbitHarmonics {
 
 impl OrbitHarmonics {
     /// The series in the frame of a mean state, if the orbit has one.
-    pub(crate) fn new(mean: &Mean, place: &Place<pulp::Scalar>, elliptic: &Disturbance<'_>) -> Option<Self> {
-        let series = elliptic.series.as_ref()?;
+    pub(crate) fn new(mean: &Mean, place: &Place<pulp::Scalar>, disturbance: &Disturbance<'_>) -> Option<Self> {
+        let series = disturbance.series.as_ref()?;
         let count = series.coefficients.len() as i32 - 1;
         let at = place.angle.values()[0] - place.centre.values()[0];
         let waves = (-count..=count).map(|j| {
@@ -117,7 +117,7 @@ impl OrbitHarmonics {
             let [even, odd] = [cosine, C64::i() * sine];
             [one, even + odd, even - odd].map(|coefficient| turn * coefficient)
         });
-        let (tensors, _) = products_at(&mean.frame, elliptic.orbit.axes());
+        let (tensors, _) = products_at(&mean.frame, disturbance.orbit.axes());
         Some(Self {
             waves: waves.collect(),
             contracted: [0, 1, 2].map(|m| {
@@ -125,9 +125,9 @@ impl OrbitHarmonics {
                 let half = |sign: f64| std::array::from_fn(|i| 0.5 * (cosine[i] - C64::new(0.0, sign) * sine[i]));
                 [one, half(1.0), half(-1.0)]
             }),
-            mean_motion: elliptic.mean_motion,
-            duration: elliptic.duration,
-            slow_limit: slow_limit(elliptic),
+            mean_motion: disturbance.mean_motion,
+            duration: disturbance.duration,
+            slow_limit: slow_limit(disturbance),
         })
     }
 
@@ -233,21 +233,21 @@ mod tests {
         let orbit =
             Orbit::new(MEAN_MOTION, eccentricity).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
         let frame = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1);
-        let elliptic = Disturbance { duration, ..whole(&orbit, frame * Vector3::z()) };
-        with(&Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame }, &elliptic)
+        let disturbance = Disturbance { duration, ..whole(&orbit, frame * Vector3::z()) };
+        with(&Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame }, &disturbance)
     }
 
     /// c_m of Ξ for a span, and by the quadrature ∫ e^(iΩτ) Θ(τ) dτ over the period before, over 1 − e^(−iΩP).
     fn solutions(eccentricity: f64, omega: f64, multiple: i32, duration: f64) -> [C64; 2] {
-        on_orbit(eccentricity, duration, |mean, elliptic| solutions_at(mean, elliptic, omega, multiple))
+        on_orbit(eccentricity, duration, |mean, disturbance| solutions_at(mean, disturbance, omega, multiple))
     }
 
-    fn solutions_at(mean: &Mean, elliptic: &Disturbance<'_>, omega: f64, multiple: i32) -> [C64; 2] {
-        let eccentricity = elliptic.orbit.eccentricity();
+    fn solutions_at(mean: &Mean, disturbance: &Disturbance<'_>, omega: f64, multiple: i32) -> [C64; 2] {
+        let eccentricity = disturbance.orbit.eccentricity();
         let frame = mean.frame;
         let place = |anomaly: f64| Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
         let (points, start, period) = (4000, 0.8, TAU / MEAN_MOTION);
-        let [first, second, _] = elliptic.orbit.axes().map(|axis| frame.inverse() * axis);
+        let [first, second, _] = disturbance.orbit.axes().map(|axis| frame.inverse() * axis);
         let sum: C64 = (0..points)
             .map(|k| {
                 let back = k as f64 / points as f64;
@@ -263,13 +263,13 @@ mod tests {
             })
             .sum();
         // The integrand jumps by 1 − e^(−iΩP) of its value at the end: the trapezoidal rule and its first correction.
-        let now = tensors(mean, elliptic)(&place(start));
+        let now = tensors(mean, disturbance)(&place(start));
         let value = |j: usize| contraction(&now[j], multiple)[0];
         let jump = 1.0 - C64::from_polar(1.0, -omega * period);
         let step = period / points as f64;
         let slope = C64::i() * omega * value(0) + value(1);
         let quadrature = (sum * step - value(0) * jump * (0.5 * step) - slope * jump * (step * step / 12.0)) / jump;
-        let series = OrbitHarmonics::new(mean, &place(start), elliptic).expect("few harmonics");
+        let series = OrbitHarmonics::new(mean, &place(start), disturbance).expect("few harmonics");
         [series.solution(omega, multiple, None), quadrature]
     }
 
@@ -297,10 +297,10 @@ mod tests {
 
     #[test]
     fn a_term_split_into_harmonics_is_the_term() {
-        on_orbit(0.6, 1e6, |mean, elliptic| {
+        on_orbit(0.6, 1e6, |mean, disturbance| {
             let place = Place::of(Lanes::splat(pulp::Scalar, 0.8), 0.6);
-            let tensors = tensors(mean, elliptic)(&place);
-            let series = OrbitHarmonics::new(mean, &place, elliptic).expect("few harmonics");
+            let tensors = tensors(mean, disturbance)(&place);
+            let series = OrbitHarmonics::new(mean, &place, disturbance).expect("few harmonics");
             // The last is slow: all its harmonics are terms.
             for (number, multiple) in [(22.6, 0), (-31.4, 1), (1.3, 2)] {
                 let omega = number * MEAN_MOTION;

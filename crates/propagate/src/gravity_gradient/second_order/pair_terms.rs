@@ -13,10 +13,10 @@ use crate::torque::{Contraction, contraction};
 
 /// The state at which the sum is taken.
 #[derive(Clone, Copy)]
-pub(crate) struct Stand<'a> {
+pub(crate) struct SecondOrderState<'a> {
     pub(crate) inertia: &'a Inertia,
     pub(crate) mean: &'a Mean,
-    pub(crate) elliptic: &'a Disturbance<'a>,
+    pub(crate) disturbance: &'a Disturbance<'a>,
     /// Mean anomaly of the disturbing body at the epoch \[rad\].
     pub(crate) anomaly: f64,
     /// The traceless part of (a/r)³ r̂r̂ in the frame, and its time derivatives.
@@ -26,10 +26,10 @@ pub(crate) struct Stand<'a> {
 /// The traceless part of (a/r)³ r̂r̂ in the frame of a mean state, and its time derivatives, as a function of the place of the disturbing body.
 pub(crate) fn tensors(
     mean: &Mean,
-    elliptic: &Disturbance<'_>,
+    disturbance: &Disturbance<'_>,
 ) -> impl Fn(&Place<pulp::Scalar>) -> [Deviator<pulp::Scalar>; ORDERS] + use<> {
-    let (products, node) = products_at(&mean.frame, elliptic.orbit.axes());
-    let orbital = elliptic.envelope.orbital.clone();
+    let (products, node) = products_at(&mean.frame, disturbance.orbit.axes());
+    let orbital = disturbance.envelope.orbital.clone();
     move |place| orbital.tensors(&products, node, place)
 }
 
@@ -53,16 +53,16 @@ pub(crate) struct PairTerm {
     pub(crate) shifted: bool,
 }
 
-impl<'a> Stand<'a> {
+impl<'a> SecondOrderState<'a> {
     /// A mean state of first order with the disturbing body at its place at the epoch.
     pub(crate) fn new(
         inertia: &'a Inertia,
         mean: &'a Mean,
         place: &Place<pulp::Scalar>,
-        elliptic: &'a Disturbance<'a>,
+        disturbance: &'a Disturbance<'a>,
     ) -> Self {
         let anomaly = place.angle.values()[0] - place.centre.values()[0];
-        Self { inertia, mean, elliptic, anomaly, tensors: tensors(mean, elliptic)(place) }
+        Self { inertia, mean, disturbance, anomaly, tensors: tensors(mean, disturbance)(place) }
     }
 
     /// The bracket of a part of one term with a part of another, with the phases.
@@ -86,10 +86,10 @@ impl<'a> Stand<'a> {
 
 impl PairTerm {
     /// A term by the sums over time derivatives.
-    pub(crate) fn new(stand: &Stand<'_>, term: &Term) -> Self {
-        let contracted = stand.tensors.map(|tensor| contraction(&tensor, term.multiple));
-        let omega = stand.mean.momentum * term.frequency[0];
-        let orders = orders(omega, &stand.elliptic.envelope.epoch);
+    pub(crate) fn new(state: &SecondOrderState<'_>, term: &Term) -> Self {
+        let contracted = state.tensors.map(|tensor| contraction(&tensor, term.multiple));
+        let omega = state.mean.momentum * term.frequency[0];
+        let orders = orders(omega, &state.disturbance.envelope.epoch);
         let parts = Parts {
             torque: [0, 1].map(|j| ContractedPart { value: contracted[j], slope: C64::default() }),
             generator: [
@@ -97,20 +97,20 @@ impl PairTerm {
                 generated(&contracted[1..ORDERS.min(orders + 1)], omega),
             ],
         };
-        Self::of(stand, term, parts)
+        Self::of(state, term, parts)
     }
 
     /// c_m of Ξ by the sum over time derivatives, and the size of the first omitted part.
-    pub(crate) fn solution(&self, stand: &Stand<'_>, multiple: i32) -> (C64, f64) {
-        let (omega, sizes) = (self.frequency[0], &stand.elliptic.envelope.epoch);
-        let contracted = stand.tensors.map(|tensor| contraction(&tensor, multiple));
+    pub(crate) fn solution(&self, state: &SecondOrderState<'_>, multiple: i32) -> (C64, f64) {
+        let (omega, sizes) = (self.frequency[0], &state.disturbance.envelope.epoch);
+        let contracted = state.tensors.map(|tensor| contraction(&tensor, multiple));
         let orders = orders(omega, sizes);
         (generated(&contracted[..orders], omega).value[0], sizes[orders] / omega.abs().powi(orders as i32 + 1)) // orders ≤ ORDERS
     }
 
     /// The number of derivatives for a sum around the orbit.
-    pub(crate) fn orders_around(&self, stand: &Stand<'_>) -> usize {
-        orders(self.frequency[0], &stand.elliptic.envelope.orbital.norms)
+    pub(crate) fn orders_around(&self, state: &SecondOrderState<'_>) -> usize {
+        orders(self.frequency[0], &state.disturbance.envelope.orbital.norms)
     }
 
     /// D and W of the term with the disturbing body at another place, from the contractions of the tensor and its derivatives there. The harmonics `near` are
@@ -136,30 +136,30 @@ impl PairTerm {
     }
 
     /// One harmonic of the orbit in a term.
-    pub(crate) fn single(stand: &Stand<'_>, term: &Term, near: &Near) -> Self {
-        let row = Self::of(stand, term, near.parts());
+    pub(crate) fn single(state: &SecondOrderState<'_>, term: &Term, near: &Near) -> Self {
+        let row = Self::of(state, term, near.parts());
         let share = near.torque.iter().map(|part| part.norm_sqr()).fold(0.0, f64::max).sqrt()
-            / stand.elliptic.envelope.orbital.norms[0];
-        let root = stand.inertia.root();
-        let size = share * term.strength(root) * stand.mean.momentum / near.divisor.abs();
+            / state.disturbance.envelope.orbital.norms[0];
+        let root = state.inertia.root();
+        let size = share * term.strength(root) * state.mean.momentum / near.divisor.abs();
         let [_, by_sigma, by_momentum] = row.frequency;
         Self { size, frequency: [near.divisor, by_sigma, by_momentum], single: true, shifted: near.shifted, ..row }
     }
 
     /// A term with these amplitudes of D and W.
-    pub(crate) fn of(stand: &Stand<'_>, term: &Term, parts: Parts) -> Self {
+    pub(crate) fn of(state: &SecondOrderState<'_>, term: &Term, parts: Parts) -> Self {
         let (h, m) = (f64::from(term.harmonic), f64::from(term.multiple));
-        let mean = stand.mean;
+        let mean = state.mean;
         let [nu, slope, _] = term.frequency;
         let angle = if mean.p == C64::default() { 0.0 } else { mean.p.arg() };
-        let phase = C64::from_polar(stand.elliptic.strength(), h * angle + m * mean.longitude);
+        let phase = C64::from_polar(state.disturbance.strength(), h * angle + m * mean.longitude);
         Self {
             harmonic: h,
             multiple: m,
-            size: term.size(stand.inertia.root()),
+            size: term.size(state.inertia.root()),
             frequency: [mean.momentum * nu, mean.momentum * slope, nu],
             weight: if term.multiple == 1 { phase * -C64::i() } else { phase },
-            amplitude: amplitude(term.harmonic, term.weighted(), stand.inertia.sigma),
+            amplitude: amplitude(term.harmonic, term.weighted(), state.inertia.sigma),
             parts,
             single: false,
             shifted: false,
@@ -174,8 +174,8 @@ impl PairTerm {
     }
 
     /// 2⟨D⟩. The source of a pair with ⟨D⟩ is [⟨D⟩, W_b], without the factor ½ of R_ab = ½ [D_a, W_b].
-    pub(crate) fn average(stand: &Stand<'_>) -> Self {
-        let function = Term::average(stand.inertia);
+    pub(crate) fn average(state: &SecondOrderState<'_>) -> Self {
+        let function = Term::average(state.inertia);
         let part =
             |tensor: &Deviator<pulp::Scalar>| ContractedPart { value: contraction(tensor, 0), slope: C64::default() };
         Self {
@@ -183,10 +183,10 @@ impl PairTerm {
             multiple: 0.0,
             size: 1.0,
             frequency: [0.0; 3],
-            weight: (2.0 * stand.elliptic.strength()).into(),
-            amplitude: amplitude(0, function, stand.inertia.sigma),
+            weight: (2.0 * state.disturbance.strength()).into(),
+            amplitude: amplitude(0, function, state.inertia.sigma),
             parts: Parts {
-                torque: [part(&stand.tensors[0]), part(&stand.tensors[1])],
+                torque: [part(&state.tensors[0]), part(&state.tensors[1])],
                 generator: [ContractedPart::default(); 2],
             },
             single: false,

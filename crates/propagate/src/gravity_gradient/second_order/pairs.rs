@@ -14,7 +14,7 @@
 //! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`crate::gravity_gradient::second_order::pairs_around`]).
 
 use super::pair_harmonics::{Near, Split, inverse, unreturned};
-use super::pair_terms::{PairTerm, Stand};
+use super::pair_terms::{PairTerm, SecondOrderState};
 use super::pairs_around::{PairSum, by_harmonics};
 use crate::gravity_gradient::constants::CUTOFF;
 use crate::gravity_gradient::terms::term::Term;
@@ -38,51 +38,51 @@ pub(crate) struct OrbitParts {
 }
 
 /// δ₂M and δ₂L at a mean state of first order.
-pub(crate) fn second_actions(stand: &Stand<'_>, terms: &[Term], exact: &OrbitParts) -> Actions {
+pub(crate) fn second_actions(state: &SecondOrderState<'_>, terms: &[Term], exact: &OrbitParts) -> Actions {
     let is_exact = |term: &Term| exact.terms.iter().any(|(other, _)| term.is(other));
     let mut listed: Vec<Term> = terms.iter().filter(|term| !is_exact(term)).copied().collect();
-    let mut half: Vec<PairTerm> = listed.iter().map(|term| PairTerm::new(stand, term)).collect();
+    let mut half: Vec<PairTerm> = listed.iter().map(|term| PairTerm::new(state, term)).collect();
     for (term, split) in &exact.terms {
-        if stand.mean.momentum * term.frequency[0].abs() > stand.slow_limit() {
+        if state.mean.momentum * term.frequency[0].abs() > state.slow_limit() {
             listed.push(*term);
-            half.push(PairTerm::of(stand, term, split.rest));
+            half.push(PairTerm::of(state, term, split.rest));
         }
     }
     let single: Vec<PairTerm> = exact
         .terms
         .iter()
-        .flat_map(|(term, split)| split.near.iter().map(|near| PairTerm::single(stand, term, near)))
+        .flat_map(|(term, split)| split.near.iter().map(|near| PairTerm::single(state, term, near)))
         .collect();
     let largest_of = |rows: &[PairTerm]| rows.iter().fold(0.0_f64, |most, row| most.max(row.size));
     let largest = if half.is_empty() { largest_of(&single) } else { largest_of(&half) };
     half.extend(single.into_iter().filter(|row| row.size > CUTOFF * largest));
     half.iter_mut().for_each(|row| row.size /= largest);
     let rows: Vec<PairTerm> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
-    let average = PairTerm::average(stand);
+    let average = PairTerm::average(state);
     let averages: Vec<PairTerm> = exact.average.iter().map(|near| average.at(near)).collect();
     let (mut actions, mut together) = (Actions::default(), Vec::new());
     for b in &rows {
         // The other half of the sum is its conjugate.
         for a in half.iter().filter(|a| a.size * b.size >= CUTOFF) {
-            actions.add(stand, (a, b), 2.0, &mut together);
+            actions.add(state, (a, b), 2.0, &mut together);
         }
         if b.single {
             // The mean of ⟨D⟩ is in the divisors of harmonics near resonance.
             let others = averages.iter().filter(|average| !b.shifted || average.frequency[0] != 0.0);
-            others.for_each(|average| actions.add(stand, (average, b), 1.0, &mut together));
+            others.for_each(|average| actions.add(state, (average, b), 1.0, &mut together));
         } else {
-            actions.add(stand, (&average, b), 1.0, &mut together);
+            actions.add(state, (&average, b), 1.0, &mut together);
         }
     }
-    let (served, others): (Vec<_>, Vec<_>) = together.into_iter().partition(|pairs| pairs.needs(stand));
+    let (served, others): (Vec<_>, Vec<_>) = together.into_iter().partition(|pairs| pairs.needs(state));
     for pairs in &others {
-        let resonant = if stand.elliptic.series.is_some() { pairs.at_resonance(stand) } else { 0.0 };
-        actions.change(pairs.numbers, pairs.by_sum(stand), pairs.sum_error(stand).hypot(resonant));
+        let resonant = if state.disturbance.series.is_some() { pairs.at_resonance(state) } else { 0.0 };
+        actions.change(pairs.numbers, pairs.by_sum(state), pairs.sum_error(state).hypot(resonant));
     }
     if !served.is_empty() {
         let listed: Vec<_> = listed.into_iter().zip(half.iter().map(|row| row.size)).collect();
         let mut errors = [0.0; 2];
-        for (pairs, [part, left]) in served.iter().zip(by_harmonics(stand, &listed, &served, &exact.terms)) {
+        for (pairs, [part, left]) in served.iter().zip(by_harmonics(state, &listed, &served, &exact.terms)) {
             let [h, m] = pairs.numbers.map(f64::abs);
             actions.change(pairs.numbers, part, 0.0);
             errors = [errors[0] + m * left, errors[1] + h * left];
@@ -94,9 +94,15 @@ pub(crate) fn second_actions(stand: &Stand<'_>, terms: &[Term], exact: &OrbitPar
 
 impl Actions {
     /// Adds a pair, `factor` times: a term with another, or ⟨D⟩ with one. χ of terms that are not single harmonics is left to `together`.
-    fn add(&mut self, stand: &Stand<'_>, (a, b): (&PairTerm, &PairTerm), factor: f64, together: &mut Vec<PairSum>) {
+    fn add(
+        &mut self,
+        state: &SecondOrderState<'_>,
+        (a, b): (&PairTerm, &PairTerm),
+        factor: f64,
+        together: &mut Vec<PairSum>,
+    ) {
         let (torque, wave) = (&a.parts.torque, &b.parts.generator);
-        let both = 0.5 * factor * stand.bracket(a, &a.parts.generator[0], b, &wave[0]).im;
+        let both = 0.5 * factor * state.bracket(a, &a.parts.generator[0], b, &wave[0]).im;
         self.momentum += a.multiple * both;
         self.action += a.harmonic * both;
         let numbers = [a.harmonic + b.harmonic, a.multiple + b.multiple];
@@ -104,17 +110,17 @@ impl Actions {
             return;
         }
         let (factor, frequency) = (0.5 * factor, a.frequency[0] + b.frequency[0]);
-        let source = stand.bracket(a, &torque[0], b, &wave[0]) * factor;
+        let source = state.bracket(a, &torque[0], b, &wave[0]) * factor;
         if a.single && b.single {
-            let duration = stand.elliptic.duration;
+            let duration = state.disturbance.duration;
             let left = source.norm() * unreturned(frequency, duration);
             return self.change(numbers, -source.re * inverse(frequency, duration), left);
         }
-        let change = (stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1])) * factor;
+        let change = (state.bracket(a, &torque[1], b, &wave[0]) + state.bracket(a, &torque[0], b, &wave[1])) * factor;
         let pair = PairSum { numbers, frequency, source, change };
         // A pair with a single harmonic of the orbit in it has its own frequency, and is not joined.
         if a.single || b.single {
-            self.change(numbers, pair.by_sum(stand), 0.0);
+            self.change(numbers, pair.by_sum(state), 0.0);
         } else {
             pair.join(together);
         }

@@ -6,7 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::pair_harmonics::{Near, Parts, Split, inverse, unreturned};
-use super::pair_terms::{PairTerm, Stand, tensors};
+use super::pair_terms::{PairTerm, SecondOrderState, tensors};
 use crate::gravity_gradient::constants::{CUTOFF, MOST_POINTS, SOURCE_CHANGE, SOURCE_MARGIN};
 use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::terms::term::{Term, slow_limit};
@@ -46,40 +46,40 @@ impl PairSum {
     }
 
     /// Whether the harmonics of the orbit are needed, and are not too many. On a circle they are few, and better than the sum over time derivatives.
-    pub(crate) fn needs(&self, stand: &Stand<'_>) -> bool {
-        let Disturbance { orbit, series, ledger, duration, .. } = stand.elliptic;
-        let slow = self.frequency.abs() <= stand.slow_limit();
-        let by_sum = if slow || orbit.eccentricity() == 0.0 { self.sum_error(stand) } else { 0.0 };
+    pub(crate) fn needs(&self, state: &SecondOrderState<'_>) -> bool {
+        let Disturbance { orbit, series, ledger, duration, .. } = state.disturbance;
+        let slow = self.frequency.abs() <= state.slow_limit();
+        let by_sum = if slow || orbit.eccentricity() == 0.0 { self.sum_error(state) } else { 0.0 };
         let [h, m] = self.numbers.map(f64::abs);
-        let rates: f64 = stand.inertia.rates.iter().map(|rate| rate.to_f64().abs()).sum();
-        let enough = ledger.pairs * stand.mean.momentum / (duration * rates);
+        let rates: f64 = state.inertia.rates.iter().map(|rate| rate.to_f64().abs()).sum();
+        let enough = ledger.pairs * state.mean.momentum / (duration * rates);
         series.is_some()
-            && h.max(m) * (self.at_resonance(stand) + by_sum) > enough
-            && highest(stand, self.frequency).is_some()
+            && h.max(m) * (self.at_resonance(state) + by_sum) > enough
+            && highest(state, self.frequency).is_some()
     }
 
     /// An upper estimate of the part of χ by the harmonic of R nearest to resonance, which the sum over time derivatives does not contain; 0 for slow pairs,
     /// which have no such sum.
-    pub(crate) fn at_resonance(&self, stand: &Stand<'_>) -> f64 {
-        if self.frequency.abs() <= stand.slow_limit() {
+    pub(crate) fn at_resonance(&self, state: &SecondOrderState<'_>) -> f64 {
+        if self.frequency.abs() <= state.slow_limit() {
             return 0.0;
         }
-        let Disturbance { orbit, mean_motion, duration, .. } = stand.elliptic;
+        let Disturbance { orbit, mean_motion, duration, .. } = state.disturbance;
         let number = (self.frequency / mean_motion).abs().round();
         let distance = (self.frequency.abs() - number * mean_motion).abs();
-        let size = self.size(stand) * stand.closest().powi(2) * at_most(orbit.eccentricity(), number, 2);
+        let size = self.size(state) * state.closest().powi(2) * at_most(orbit.eccentricity(), number, 2);
         size * (1.0 / distance).min(*duration)
     }
 
     /// Size of R. R may vanish at the epoch, so its time derivative is included.
-    fn size(&self, stand: &Stand<'_>) -> f64 {
-        let swing = if stand.bend() > 0.0 { self.change.norm_sqr() / (4.0 * stand.bend()) } else { 0.0 };
+    fn size(&self, state: &SecondOrderState<'_>) -> f64 {
+        let swing = if state.bend() > 0.0 { self.change.norm_sqr() / (4.0 * state.bend()) } else { 0.0 };
         (self.source.norm_sqr() + swing).sqrt()
     }
 
     /// The real part of −iχ by the sum over time derivatives; 0 for slow pairs, which have no such sum.
-    pub(crate) fn by_sum(&self, stand: &Stand<'_>) -> f64 {
-        if self.frequency.abs() <= stand.slow_limit() {
+    pub(crate) fn by_sum(&self, state: &SecondOrderState<'_>) -> f64 {
+        if self.frequency.abs() <= state.slow_limit() {
             return 0.0;
         }
         let inverse = (C64::i() * self.frequency).inv();
@@ -87,40 +87,40 @@ impl PairSum {
     }
 
     /// Error of [`PairSum::by_sum`]: the terms of the sum from the third on; for slow pairs all of χ.
-    pub(crate) fn sum_error(&self, stand: &Stand<'_>) -> f64 {
-        let (omega, duration, step) = (self.frequency, stand.elliptic.duration, stand.elliptic.orbital_step());
+    pub(crate) fn sum_error(&self, state: &SecondOrderState<'_>) -> f64 {
+        let (omega, duration, step) = (self.frequency, state.disturbance.duration, state.disturbance.orbital_step());
         // A product of two has twice the orbit's rates.
-        let fastest = 2.0 * stand.bend().sqrt();
+        let fastest = 2.0 * state.bend().sqrt();
         let beyond = omega.abs() - fastest;
         let distance = if beyond > 0.0 { beyond } else { (omega - step * (omega / step).round()).abs() };
         let time = if distance * duration > 1.0 { 1.0 / distance } else { duration };
-        let slow = omega.abs() <= stand.slow_limit();
-        let share = if slow { SOURCE_MARGIN * stand.closest().powi(2) } else { (fastest / omega).powi(2).min(1.0) };
-        self.size(stand) * share * time
+        let slow = omega.abs() <= state.slow_limit();
+        let share = if slow { SOURCE_MARGIN * state.closest().powi(2) } else { (fastest / omega).powi(2).min(1.0) };
+        self.size(state) * share * time
     }
 }
 
-impl Stand<'_> {
+impl SecondOrderState<'_> {
     /// Frequency at and below which pairs have no sum over time derivatives.
     pub(crate) fn slow_limit(&self) -> f64 {
-        slow_limit(self.elliptic)
+        slow_limit(self.disturbance)
     }
 
     /// Largest (a/r)³ within the span, over that at the epoch.
     fn closest(&self) -> f64 {
-        self.elliptic.envelope.span[0] / self.elliptic.envelope.epoch[0]
+        self.disturbance.envelope.span[0] / self.disturbance.envelope.epoch[0]
     }
 
     /// Second time derivative of (a/r)³ r̂r̂ at the epoch, over it.
     fn bend(&self) -> f64 {
-        self.elliptic.envelope.epoch[2] / self.elliptic.envelope.epoch[0]
+        self.disturbance.envelope.epoch[2] / self.disturbance.envelope.epoch[0]
     }
 }
 
 /// The highest harmonic that a pair of frequency Ω needs, if they are not too many.
-fn highest(stand: &Stand<'_>, omega: f64) -> Option<f64> {
-    let slow = 6.0 + 4.0 / decay(stand.elliptic.orbit.eccentricity());
-    let highest = slow.max((omega / stand.elliptic.mean_motion).abs() + 4.0).ceil();
+fn highest(state: &SecondOrderState<'_>, omega: f64) -> Option<f64> {
+    let slow = 6.0 + 4.0 / decay(state.disturbance.orbit.eccentricity());
+    let highest = slow.max((omega / state.disturbance.mean_motion).abs() + 4.0).ceil();
     (points_for(highest) <= MOST_POINTS).then_some(highest)
 }
 
@@ -155,16 +155,16 @@ type TermPair = (usize, [usize; 2], bool);
 
 /// The real part of −iχ of the pairs of these terms with each of these totals, and its error. A term comes with its relative size.
 pub(crate) fn by_harmonics(
-    stand: &Stand<'_>,
+    state: &SecondOrderState<'_>,
     listed: &[(Term, f64)],
     totals: &[PairSum],
     exact: &[(Term, Split)],
 ) -> Vec<[f64; 2]> {
-    let highest = totals.iter().filter_map(|total| highest(stand, total.frequency)).fold(0.0, f64::max);
-    let points = even(stand.elliptic.orbit.eccentricity(), points_for(highest));
-    let sources = sources(stand, (listed, totals), exact, &points);
+    let highest = totals.iter().filter_map(|total| highest(state, total.frequency)).fold(0.0, f64::max);
+    let points = even(state.disturbance.orbit.eccentricity(), points_for(highest));
+    let sources = sources(state, (listed, totals), exact, &points);
     let highest = highest as i32;
-    let turn = |j: i32| points.iter().map(move |(l, _)| C64::from_polar(1.0, f64::from(j) * (l - stand.anomaly)));
+    let turn = |j: i32| points.iter().map(move |(l, _)| C64::from_polar(1.0, f64::from(j) * (l - state.anomaly)));
     let steps: Vec<C64> = turn(-1).collect();
     let sum = |(total, source): (&PairSum, &Vec<C64>)| {
         let (mut sum, mut left) = (0.0, 0.0);
@@ -172,10 +172,10 @@ pub(crate) fn by_harmonics(
         let mut waves: Vec<C64> = waves.collect();
         for j in -highest..=highest {
             let harmonic: C64 = waves.iter().sum();
-            let divisor = total.frequency + f64::from(j) * stand.elliptic.mean_motion;
-            let part = harmonic * inverse(divisor, stand.elliptic.duration);
+            let divisor = total.frequency + f64::from(j) * state.disturbance.mean_motion;
+            let part = harmonic * inverse(divisor, state.disturbance.duration);
             sum -= part.re;
-            left += SOURCE_CHANGE * part.norm() + harmonic.norm() * unreturned(divisor, stand.elliptic.duration);
+            left += SOURCE_CHANGE * part.norm() + harmonic.norm() * unreturned(divisor, state.disturbance.duration);
             waves.iter_mut().zip(&steps).for_each(|(wave, step)| *wave *= step);
         }
         [sum, left]
@@ -185,7 +185,7 @@ pub(crate) fn by_harmonics(
 
 /// R of the pairs with each of these totals, at each point of the orbit.
 fn sources(
-    stand: &Stand<'_>,
+    state: &SecondOrderState<'_>,
     (listed, totals): (&[(Term, f64)], &[PairSum]),
     exact: &[(Term, Split)],
     points: &[(f64, f64)],
@@ -194,25 +194,25 @@ fn sources(
     let needed = |k: usize| pairs.iter().any(|(_, rows, _)| rows.iter().any(|row| row.div_ceil(2) == k + 1));
     let near = |term: &Term| exact.iter().find(|(other, _)| term.is(other)).map_or(&[][..], |(_, split)| &split.near);
     let around_orbit = |term: &Term| {
-        let row = PairTerm::of(stand, term, Parts::default());
-        TermAround { row, multiple: term.multiple as usize, orders: row.orders_around(stand), near: near(term) } // 0 ≤ m ≤ 2
+        let row = PairTerm::of(state, term, Parts::default());
+        TermAround { row, multiple: term.multiple as usize, orders: row.orders_around(state), near: near(term) } // 0 ≤ m ≤ 2
     };
     let terms: Vec<_> = listed.iter().enumerate().map(|(k, (term, _))| (around_orbit(term), needed(k))).collect();
     let mut sources = vec![vec![C64::default(); points.len()]; totals.len()];
-    let at_place = tensors(stand.mean, stand.elliptic);
+    let at_place = tensors(state.mean, state.disturbance);
     for (k, (anomaly, _)) in points.iter().enumerate() {
-        let place = Place::of(Lanes::splat(pulp::Scalar, *anomaly), stand.elliptic.orbit.eccentricity());
-        let stand = Stand { tensors: at_place(&place), ..*stand };
-        let elapsed = (anomaly - stand.anomaly) / stand.elliptic.mean_motion;
-        let contracted = [0, 1, 2].map(|multiple| stand.tensors.map(|tensor| contraction(&tensor, multiple)));
+        let place = Place::of(Lanes::splat(pulp::Scalar, *anomaly), state.disturbance.orbit.eccentricity());
+        let state = SecondOrderState { tensors: at_place(&place), ..*state };
+        let elapsed = (anomaly - state.anomaly) / state.disturbance.mean_motion;
+        let contracted = [0, 1, 2].map(|multiple| state.tensors.map(|tensor| contraction(&tensor, multiple)));
         let here = |(TermAround { row, multiple, orders, near }, needed): &(TermAround<'_>, bool)| {
             let row = if *needed { row.elsewhere(&contracted[*multiple][..*orders], near, elapsed) } else { *row };
             [row, row.conjugate()]
         };
-        let rows: Vec<_> = std::iter::once(PairTerm::average(&stand)).chain(terms.iter().flat_map(here)).collect();
+        let rows: Vec<_> = std::iter::once(PairTerm::average(&state)).chain(terms.iter().flat_map(here)).collect();
         for (place, pair, opposite) in &pairs {
             let [a, b] = pair.map(|row| &rows[row]);
-            let source = stand.bracket(a, &a.parts.torque[0], b, &b.parts.generator[0]);
+            let source = state.bracket(a, &a.parts.torque[0], b, &b.parts.generator[0]);
             sources[*place][k] += if *opposite { source.conj() } else { source };
         }
     }

@@ -10,7 +10,7 @@ use crate::gravity_gradient::first_order::mean_variables::{Mean, PeriodicChange}
 use crate::gravity_gradient::request::osculating;
 use crate::gravity_gradient::second_order::k2::{DisturberLanes, Hamiltonian, in_lanes};
 use crate::gravity_gradient::second_order::k2_orbit_mean::OverOrbit;
-use crate::gravity_gradient::second_order::pair_terms::{PairTerm, Stand, tensors};
+use crate::gravity_gradient::second_order::pair_terms::{PairTerm, SecondOrderState, tensors};
 use crate::gravity_gradient::second_order::pairs::{OrbitParts, second_actions};
 use crate::gravity_gradient::terms::term::{Term, fast_terms, slow_limit};
 use crate::numerics::C64;
@@ -75,9 +75,9 @@ fn values(hamiltonian: &Hamiltonian, axis: &Vector3<f64>, disturber: &PlacedBody
 }
 
 /// ½ ⟨{D̃, W}⟩ from the pairs whose phases cancel, with as many time derivatives as the sums have.
-fn averaged(stand: &Stand<'_>, terms: &[Term]) -> f64 {
-    let rows = terms.iter().map(|term| PairTerm::new(stand, term));
-    rows.map(|a| stand.bracket(&a, &a.parts.torque[0], &a.conjugate(), &a.conjugate().parts.generator[0]).re).sum()
+fn averaged(state: &SecondOrderState<'_>, terms: &[Term]) -> f64 {
+    let rows = terms.iter().map(|term| PairTerm::new(state, term));
+    rows.map(|a| state.bracket(&a, &a.parts.torque[0], &a.conjugate(), &a.conjugate().parts.generator[0]).re).sum()
 }
 
 /// Of the disturbing body: what the closed form lacks is (n/Ω)² of it.
@@ -117,7 +117,7 @@ impl Scene {
         Self { polhode, orbit, mean, place }
     }
 
-    fn elliptic(&self) -> Disturbance<'_> {
+    fn disturbance(&self) -> Disturbance<'_> {
         Disturbance { series: None, ..whole(&self.orbit, self.mean.frame * Vector3::z()) }
     }
 
@@ -135,12 +135,12 @@ impl Scene {
     }
 
     /// The state for the sum over pairs.
-    fn stand<'a>(&'a self, inertia: &'a Inertia, elliptic: &'a Disturbance<'a>) -> Stand<'a> {
-        Stand::new(inertia, &self.mean, &self.place, elliptic)
+    fn state<'a>(&'a self, inertia: &'a Inertia, disturbance: &'a Disturbance<'a>) -> SecondOrderState<'a> {
+        SecondOrderState::new(inertia, &self.mean, &self.place, disturbance)
     }
 
     fn closed(&self, inertia: &Inertia, strength: f64) -> Hamiltonian {
-        Hamiltonian::new(inertia, &fast_terms(inertia, 0.0, slow_limit(&self.elliptic())), strength)
+        Hamiltonian::new(inertia, &fast_terms(inertia, 0.0, slow_limit(&self.disturbance())), strength)
     }
 }
 
@@ -170,12 +170,12 @@ fn periodic(inertia: &Inertia, p: C64, longitude: f64, tensor: &Deviator<pulp::S
 fn the_closed_form_is_the_average_of_the_bracket_over_both_angles() {
     for scene in Scene::all() {
         let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
-        let corrections = Corrections::new(&inertia, &scene.elliptic()).expect("no resonance");
+        let corrections = Corrections::new(&inertia, &scene.disturbance()).expect("no resonance");
         // The torus is filled at one frame: the change turns the tensor.
         let turned = |rotation: [f64; 2], step: f64| -> Deviator<pulp::Scalar> {
             let [x, y] = rotation.map(|angle| step * angle);
             let turn = UnitQuaternion::new(Vector3::new(x, y, 0.0));
-            tensors(&Mean { frame: scene.mean.frame * turn, ..scene.mean }, &scene.elliptic())(&scene.place)[0]
+            tensors(&Mean { frame: scene.mean.frame * turn, ..scene.mean }, &scene.disturbance())(&scene.place)[0]
         };
         let (mut sum, count) = (0.0, (48, 10));
         // A change of some 1e-4 makes the quotient good to its square.
@@ -206,9 +206,9 @@ fn the_closed_form_is_the_average_of_the_bracket_over_both_angles() {
 fn the_pairs_that_cancel_add_up_to_the_closed_form() {
     for scene in Scene::all() {
         let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
-        let elliptic = scene.elliptic();
-        let stand = scene.stand(&inertia, &elliptic);
-        let pairs = averaged(&stand, &fast_terms(&inertia, 0.0, slow_limit(&scene.elliptic())));
+        let disturbance = scene.disturbance();
+        let state = scene.state(&inertia, &disturbance);
+        let pairs = averaged(&state, &fast_terms(&inertia, 0.0, slow_limit(&scene.disturbance())));
         let axis = scene.mean.frame * Vector3::z();
         let [_, closed] = values(&scene.closed(&inertia, Q), &axis, &scene.disturber());
         assert!((pairs / closed - 1.0).abs() <= 1e-6, "{pairs:e} {closed:e} {:e}", pairs / closed - 1.0);
@@ -289,14 +289,14 @@ fn pairs_by_the_harmonics_of_the_orbit_are_those_by_time_derivatives() {
         place: Place::of(Lanes::splat(pulp::Scalar, 0.8), eccentricity),
         ..Scene::new([0.4, 0.7, 1.0], [0.1, 0.3, 1.0])
     };
-    let elliptic = scene.elliptic();
+    let disturbance = scene.disturbance();
     let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
-    let terms = fast_terms(&inertia, 1e-4, slow_limit(&elliptic));
+    let terms = fast_terms(&inertia, 1e-4, slow_limit(&disturbance));
     let reach = Reach { eccentricity, anomaly: 0.0, sides: [10.0 * std::f64::consts::TAU; 2] };
     let series = series(&reach).expect("a series");
     let [by_sums, by_orbit] = [None, Some(series)].map(|series| {
-        let elliptic = Disturbance { series, mean_motion, duration: 1e6, ..scene.elliptic() };
-        second_actions(&scene.stand(&inertia, &elliptic), &terms, &OrbitParts::default())
+        let disturbance = Disturbance { series, mean_motion, duration: 1e6, ..scene.disturbance() };
+        second_actions(&scene.state(&inertia, &disturbance), &terms, &OrbitParts::default())
     });
     // The sums end after two derivatives: the next has a few times (2n/Ω)², where Ω is 30 n and more.
     let scale = by_sums.momentum.abs() + by_sums.action.abs();

@@ -28,12 +28,12 @@ fn divisors_have_the_rates_of_the_average_torque() {
         // With q this small the average over the orbit has no second order.
         let orbit = scene.orbit.attraction(1e-6 * MEAN_MOTION * MEAN_MOTION).expect("an orbit");
         let scene = Scene { orbit, ..scene };
-        let hamiltonian = Hamiltonian::first(&inertia, scene.elliptic().strength());
+        let hamiltonian = Hamiltonian::first(&inertia, scene.disturbance().strength());
         let (axes, pole) = (scene.orbit.axes(), frame * Vector3::z());
         let slopes = mean_rates(&OverOrbit::new(&hamiltonian, ECCENTRICITY, MEAN_MOTION, axes), &pole);
         let turning = frame.inverse() * slopes.turning;
         let ([one, cosine, sine], _) = products_at(&frame, axes);
-        let secular = AverageShift::new(&inertia, &scene.elliptic());
+        let secular = AverageShift::new(&inertia, &scene.disturbance());
         for (harmonic, multiple) in [(2, 0), (-3, 1), (1, 1), (4, 2)] {
             let divisors = Divisors::new((harmonic, multiple), [-3.0 * MEAN_MOTION, MEAN_MOTION], false, &secular);
             for (turns, sign) in [(0, 0.0), (2, -1.0), (-2, 1.0)] {
@@ -66,30 +66,30 @@ fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
         let Mean { p, momentum, frame, .. } = scene.mean;
         let orbit = Orbit::new(FAST, ECCENTRICITY).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
         let scene = Scene { orbit, ..scene };
-        let elliptic = Disturbance { series: Some(series.clone()), ..scene.elliptic() };
-        let scale = elliptic.strength();
+        let disturbance = Disturbance { series: Some(series.clone()), ..scene.disturbance() };
+        let scale = disturbance.strength();
         let inertia = Inertia::new(&scene.polhode, p.norm_sqr(), momentum);
         let lacking = |inertia: &Inertia, frame: &UnitQuaternion<f64>| {
             Remainder::new(
                 inertia,
                 frame,
-                (&elliptic, &series),
-                (&[], &fast_terms(inertia, 1e-3, slow_limit(&elliptic))),
+                (&disturbance, &series),
+                (&[], &fast_terms(inertia, 1e-3, slow_limit(&disturbance))),
             )
         };
         let remainder = lacking(&inertia, &frame);
-        let (value, steady) = (remainder.value, remainder.rates(&inertia, &frame, &elliptic.path.axes[2]));
+        let (value, steady) = (remainder.value, remainder.rates(&inertia, &frame, &disturbance.path.axes[2]));
         // All of K2, with as many time derivatives as the sums have, less the closed form.
         let mut mean = 0.0;
         for k in 0..STEPS {
             let anomaly = std::f64::consts::TAU * (k as f64 / STEPS as f64 - 0.5);
             let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), ECCENTRICITY);
             let moved = Scene { place, ..scene.clone() };
-            let all: Vec<Term> = fast_terms(&inertia, 0.0, slow_limit(&elliptic));
-            let stand = moved.stand(&inertia, &elliptic);
-            let mut still = stand;
+            let all: Vec<Term> = fast_terms(&inertia, 0.0, slow_limit(&disturbance));
+            let state = moved.state(&inertia, &disturbance);
+            let mut still = state;
             still.tensors[2..].fill([Lanes::splat(pulp::Scalar, 0.0); 5]);
-            mean += (averaged(&stand, &all) - averaged(&still, &all)) / (scale * scale) / STEPS as f64;
+            mean += (averaged(&state, &all) - averaged(&still, &all)) / (scale * scale) / STEPS as f64;
         }
         let found = value / (scale * scale);
         // Terms with a share of 1e-6 of it are left out, and harmonics likewise.
