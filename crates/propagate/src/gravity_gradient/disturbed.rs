@@ -5,7 +5,9 @@
 //! regular at J = 0 and at any inclination. Validity: the rotation is much faster than the orbit, and the torque is weak. A divisor that is too small is
 //! [`Error::Resonance`]. The error is of second order in the torque and grows with time.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::UnitQuaternion;
 
 use andoyer_double::DoubleDouble;
 
@@ -13,19 +15,20 @@ use crate::error::Error;
 use crate::gravity_gradient::averaged::averages::AveragedMotion;
 use crate::gravity_gradient::averaged::bodies::most_arcs;
 use crate::gravity_gradient::averaged::spin::MOST_QUARTERS;
-use crate::gravity_gradient::body::cayley_klein::WobbleSeries;
-use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::draft::{Draft, Outset};
 use crate::gravity_gradient::estimate::MOST_ORBITS;
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
+use crate::gravity_gradient::inertia::Inertia;
+use crate::gravity_gradient::inertia::WobbleSeries;
+use crate::gravity_gradient::request::Request;
 use crate::input::options::{Averaging, Level};
 use crate::motion::plan::GradientPlan;
 use crate::numerics::C64;
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
 use crate::orbit::position::Path;
-use crate::torque_free::polhode::Frame;
+use crate::torque_free::polhode::{Frame, Polhode};
 
 /// A motion under the gravity gradient.
 #[derive(Clone, Debug)]
@@ -150,4 +153,38 @@ impl DisturbedMotion {
         }
         skipped
     }
+}
+
+/// The motion under a gravity gradient at the level that is asked for, and why it is not of second order if that was left open.
+///
+/// # Errors
+/// Errors of [`Outset::new`], [`Outset::draft`] and [`DisturbedMotion::new`]. With [`Level::Auto`] only those of the first-order draft; an error of second order is
+/// returned as the reason.
+pub(crate) fn chosen(
+    polhode: &Polhode,
+    attitude: UnitQuaternion<f64>,
+    osculating: (f64, [f64; 2]),
+    request: &Request<'_>,
+) -> Result<(DisturbedMotion, Option<String>), Error> {
+    let outset = Outset::new(polhode, attitude, osculating, request)?;
+    if request.level != Level::Auto {
+        return Ok((DisturbedMotion::new(&outset, outset.draft(request.level)?)?, None));
+    }
+    let first = outset.draft(Level::Full)?;
+    let reason = if first.error <= request.tolerance {
+        "first order meets the tolerance".to_owned()
+    } else if !request.is_fixed() {
+        "several disturbing bodies, and orbits that precess, are of first order".to_owned()
+    } else {
+        match outset.draft(Level::SecondOrder) {
+            Ok(second) if second.error < first.error => match DisturbedMotion::new(&outset, second) {
+                Ok(second) => return Ok((second, None)),
+                Err(error) => error.to_string(),
+            },
+            Ok(second) if second.error >= PI => "its error bound is half a turn or more".to_owned(),
+            Ok(second) => format!("its error bound, {:.1e} rad, is no smaller", second.error),
+            Err(error) => error.to_string(),
+        }
+    };
+    Ok((DisturbedMotion::new(&outset, first)?, Some(format!("second order: {reason}"))))
 }

@@ -2,12 +2,12 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::disturbance;
 use crate::gravity_gradient::disturbance::{Disturbance, whole};
+use crate::gravity_gradient::disturbed::chosen;
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::mean_variables::{Mean, PeriodicChange};
-use crate::gravity_gradient::level::chosen;
+use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::request::Request;
 use crate::input::options::{Averaging, Level};
 use crate::numerics::C64;

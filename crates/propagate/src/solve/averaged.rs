@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::free::{self, Preparation, representable, unused_order};
 use crate::error::{Error, TorqueMeasure};
 use crate::gravity_gradient::constants::LARGEST_SEPARATRIX_RATIO;
-use crate::gravity_gradient::level::chosen;
+use crate::gravity_gradient::disturbed::chosen;
 use crate::gravity_gradient::request::Request;
 use crate::gravity_gradient::request::osculating;
 use crate::input::options::{Level, Method};

@@ -17,7 +17,7 @@ use pulp::NullaryFnOnce;
 
 use super::epoch_solution::{EpochSolution, PARTS};
 use super::sums::{GeneratorSlopes, SUMS};
-use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::terms::divisors::Divisors;
 use crate::gravity_gradient::terms::term::SizedTerm;
 use crate::orbit::hansen::OrbitSeries;

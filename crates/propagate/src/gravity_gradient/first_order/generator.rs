@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 
 use super::fourier::{ExactTerm, ExactTerms};
 use super::sums::{GeneratorSlopes, TermSums};
-use crate::gravity_gradient::body::inertia::HIGHEST;
+use crate::gravity_gradient::inertia::HIGHEST;
 use crate::orbit::derivatives::{AnomalyPowers, Orbital};
 use crate::orbit::kepler::Place;
 use crate::orbit::position::Axes;

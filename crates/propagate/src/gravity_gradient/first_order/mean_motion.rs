@@ -3,9 +3,9 @@
 use super::corrections::Corrections;
 use super::mean_variables::{Mean, PeriodicChange};
 use crate::error::{Error, TorqueMeasure};
-use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::constants::{CONVERGED, LARGEST_CONTRACTION, STRONGEST};
 use crate::gravity_gradient::disturbance::Disturbance;
+use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::terms::regime::Terms;
 use crate::orbit::elements::Orbit;
 use crate::torque::strength_for;

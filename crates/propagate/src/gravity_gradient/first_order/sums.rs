@@ -1,6 +1,6 @@
 //! Sums over the terms of one m, by time derivative, and what each term adds to them.
 
-use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::terms::term::{SizedTerm, Term};
 use crate::orbit::tensor::Deviator;
 use crate::simd::complex_quaternion::ComplexLanes;

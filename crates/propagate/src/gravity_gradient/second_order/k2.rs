@@ -13,7 +13,7 @@
 use nalgebra::Vector3;
 
 use super::k2_remainder::SteadyRates;
-use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::terms::term::Term;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;

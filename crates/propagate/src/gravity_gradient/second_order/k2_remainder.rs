@@ -13,10 +13,10 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::constants::{CUTOFF, NEAREST_IN_K2};
 use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
+use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::terms::term::Term;
 use crate::numerics::C64;
 use crate::orbit::hansen::OrbitSeries;

@@ -1,9 +1,9 @@
 //! The terms of the sum over pairs at one state: their amplitudes, those of the generating function, and the bracket of two.
 
 use super::pair_harmonics::{ContractedPart, Near, Parts};
-use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
+use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::terms::term::Term;
 use crate::numerics::C64;
 use crate::orbit::derivatives::ORDERS;

@@ -2,11 +2,11 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::gravity_gradient::body::inertia::{HIGHEST, Inertia};
 use crate::gravity_gradient::disturbance::series;
 use crate::gravity_gradient::disturbance::{Disturbance, whole};
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::mean_variables::{Mean, PeriodicChange};
+use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
 use crate::gravity_gradient::request::osculating;
 use crate::gravity_gradient::second_order::k2::{DisturberLanes, Hamiltonian, in_lanes};
 use crate::gravity_gradient::second_order::k2_orbit_mean::OverOrbit;

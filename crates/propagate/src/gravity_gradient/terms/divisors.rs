@@ -12,9 +12,9 @@
 //! the divisor is constant. Away from resonance, and for j = 0, the bracket {⟨D⟩, W} gives this shift, and it is not applied here.
 
 use super::term::Term;
-use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::constants::{MOST_SHIFT, SINGLE_BELOW};
 use crate::gravity_gradient::disturbance::Disturbance;
+use crate::gravity_gradient::inertia::Inertia;
 use crate::orbit::position::eta;
 
 /// The shift of the frequencies by the average torque.

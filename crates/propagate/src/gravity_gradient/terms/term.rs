@@ -1,8 +1,8 @@
 //! A term of the disturbing function: its coefficient and its frequency; the change of the motion by it, and by errors of the mean variables.
 
-use crate::gravity_gradient::body::inertia::{HIGHEST, Inertia};
 use crate::gravity_gradient::constants::SLOW_RATIO;
 use crate::gravity_gradient::disturbance::Disturbance;
+use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
 
 /// The factors of one mean motion.
 #[derive(Clone, Copy, Debug)]

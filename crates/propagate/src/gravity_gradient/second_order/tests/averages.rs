@@ -2,10 +2,10 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::disturbance::series;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
+use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::second_order::k2::Hamiltonian;
 use crate::gravity_gradient::second_order::k2_orbit_mean::OverOrbit;
 use crate::gravity_gradient::second_order::k2_remainder::Remainder;

@@ -1,4 +1,4 @@
-//! The inertia tensor in the invariable frame as Fourier series in ℓ′ and y′, to all orders in J (theory §9).
+//! The body: its inertia tensor in the invariable frame as Fourier series in ℓ′ and y′, and its attitude by the series of a and b, to all orders in J (theory §9).
 //!
 //! T = Q diag(A, B, C) Qᵀ is sampled over a quarter turn of ℓ′ on the closed form at y′ = 0: T33, i t1 e^(−iy′), t2 e^(−2iy′). The parameters a and b of theory
 //! §8 need no normalization here. They are the theta series themselves, which have a few harmonics where the tensor has tens. Time reversal makes all
@@ -7,9 +7,14 @@
 //! step is 0.2 % of the distance to the separatrix (sin²J = 1), and at most 40 % of sin²J. A smaller step at small J would amplify rounding. The relative error
 //! is 1e-10.
 
-use crate::gravity_gradient::constants::{DIFFERENCE_STEP, LARGEST_DIFFERENCE_STEP, TANGENT_SQUARE, TAYLOR_REACH};
+use crate::gravity_gradient::constants::{
+    DIFFERENCE_STEP, LARGEST_DIFFERENCE_STEP, SMALLEST_HARMONIC, TANGENT_SQUARE, TAYLOR_REACH,
+};
 use crate::input::options::Level;
 use crate::numerics::C64;
+use crate::simd::complex_quaternion::ComplexLanes;
+use crate::simd::instruction_set::InstructionSet;
+use crate::simd::lanes::Lanes;
 use crate::torque_free::closed_form::ClosedForm;
 use crate::torque_free::frequencies::Secular;
 use crate::torque_free::polhode::Polhode;
@@ -273,6 +278,41 @@ impl Level {
     }
 }
 
+/// The harmonics of a or b that are not negligible, with their slopes, as polynomials in p² and p̄². The first list has h ≥ 0, the second h < 0.
+#[derive(Clone, Debug)]
+pub(crate) struct WobbleSeries([Vec<[f64; 2]>; 2]);
+
+impl WobbleSeries {
+    pub(crate) fn new(series: &Harmonics, root: f64) -> Self {
+        let odd = series.at(0).0 == 0.0;
+        let side = |first: usize, sign: i32| {
+            let terms = (first..=HIGHEST).step_by(2).map(|h| (h as i32, <[f64; 2]>::from(series.at(sign * h as i32))));
+            let mut terms: Vec<_> = terms.collect();
+            while let Some((degree, [value, slope])) = terms.last()
+                && root.powi(*degree) * (value.abs() + slope.abs() * root * root) < SMALLEST_HARMONIC
+            {
+                terms.pop();
+            }
+            terms.into_iter().map(|(_, pair)| pair).collect()
+        };
+        if odd { Self([side(1, 1), side(1, -1)]) } else { Self([side(0, 1), side(2, -1)]) }
+    }
+
+    /// The two sums, without the remaining factors p and p̄.
+    #[inline(always)]
+    pub(crate) fn at<S: InstructionSet>(&self, square: ComplexLanes<S>, beyond: Lanes<S>) -> [ComplexLanes<S>; 2] {
+        let zero = beyond.all(0.0);
+        let mut sums = [ComplexLanes { re: zero, im: zero }; 2];
+        for ((sum, terms), by) in sums.iter_mut().zip(&self.0).zip([square, square.conjugate()]) {
+            for [value, slope] in terms.iter().rev() {
+                let factor = ComplexLanes { re: beyond.mul_add(zero.all(*slope), zero.all(*value)), im: zero };
+                *sum = factor.plus(*sum, by);
+            }
+        }
+        sums
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -284,7 +324,7 @@ mod tests {
         for rates in [[1e-3, 2e-3, 1.0], [0.1, 0.2, 1.0], [0.5, 0.3, 0.8]] {
             let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], rates).expect("a state");
             let polhode = Polhode::new(&Body::new([0.8, 0.9, 1.0]).expect("a body"), &state).expect("turning");
-            let (sigma, _) = crate::gravity_gradient::body::inertia::rates(&polhode);
+            let (sigma, _) = crate::gravity_gradient::inertia::rates(&polhode);
             let tables = Inertia::new(&polhode, sigma, 0.7);
             let to = sigma + 0.9 * TAYLOR_REACH * (tables.separatrix - sigma);
             let (moved, new) = (tables.moved(&polhode, to, 0.71), Inertia::new(&polhode, to, 0.71));
