@@ -1,9 +1,9 @@
 //! The torque of the gravity gradient and its disturbing function (theory §9).
 //!
-//! A body in the direction r̂ at the distance r exerts on a body with the inertia tensor T, with the attraction G m/a³,
+//! A body in the direction r̂ at the distance r exerts on a body with the inertia tensor T, with the attraction φn² = G m/a³,
 //!
 //! ```text
-//! torque = 2Γ (a/r)³ r̂ × T r̂,   D = Γ (a/r)³ (r̂·T r̂ − tr T/3),   Γ = (3/2) G m/a³
+//! torque = 2Γ (a/r)³ r̂ × T r̂,   D = Γ (a/r)³ (r̂·T r̂ − tr T/3),   Γ = 3φn²/2
 //! ⟨D⟩ = ΓΔ (a/r)³ (k_r² − ⅓)     averaged over ℓ′ and y′
 //! ```
 //!

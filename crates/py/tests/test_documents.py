@@ -105,8 +105,13 @@ def contradictions(text, rows):
 
 def test_letters_of_the_gravity_gradient_have_the_meaning_of_the_table_of_symbols():
     rows = symbols()
-    files = sorted((REPOSITORY / "crates/propagate/src/gravity_gradient").rglob("*.rs"))
-    found = {path.name: contradictions(path.read_text(encoding="utf-8"), rows) for path in files}
+    crate = REPOSITORY / "crates/propagate/src"
+    files = [
+        *sorted((crate / "gravity_gradient").rglob("*.rs")),
+        *(crate / "orbit" / f"{name}.rs" for name in ("tensor", "derivatives", "hansen", "span")),
+        crate / "torque.rs",
+    ]
+    found = {str(path.relative_to(crate)): contradictions(path.read_text(encoding="utf-8"), rows) for path in files}
     assert len(files) > 30 and {name: letters for name, letters in found.items() if letters} == {}
     # Planted: a second meaning of a letter.
     assert contradictions("//! With q = 3φn²/2 and the span T,\n/// μ = G m/a³ of a body\n", rows) == ["q = 3φn²/2", "μ = G m/a³"]

@@ -270,7 +270,8 @@ impl Motion {
 
     pub(crate) fn no_phase(&self, index: usize, times: &[f64], epoch: f64) -> Error {
         // Of a time that is NaN the end after the epoch.
-        let (bound, reason) = self.ends()[usize::from(!(times[index] < epoch))];
+        let [before, after] = self.ends();
+        let (bound, reason) = if times[index] < epoch { before } else { after };
         self.too_far((index, times[index]), epoch, bound, reason)
     }
 

@@ -1,6 +1,6 @@
 //! The averaged equations: the derivatives of the invariable frame and of two numbers, for one body on a fixed orbit, for several bodies, and averaged over the orbit.
 //!
-//! With the unit angular momentum k, κ_o = 2Γ Δ/(M n η³) and the true anomaly f of one orbit, or with time t and a sum over bodies,
+//! With the unit angular momentum k, κ_o = 3φn Δ/(M η³) and the true anomaly f of one orbit, or with time t and a sum over bodies,
 //!
 //! ```text
 //! dk/df = κ_o (1 + e cos f) (k·r̂) (r̂ × k)        dΨ/df = (⅔Γ/(n η³)) (1 + e cos f) (1 − 3 (k·r̂)²)
