@@ -127,8 +127,9 @@ impl Forced for DisturbedMotion {
         fill_in_lanes(self, arch, run)
     }
 
-    fn ends(&self) -> Option<[End; 2]> {
-        Some([(self.bound(), if self.is_by_quarters() { SOLVED } else { SOLVED_ON_ARCS }); 2])
+    fn ends(&self, phases: End) -> [End; 2] {
+        let solved = (self.bound(), if self.is_by_quarters() { SOLVED } else { SOLVED_ON_ARCS });
+        [if solved.0 < phases.0 { solved } else { phases }; 2]
     }
 
     fn angular_momenta(&self, times: &[f64], epoch: f64, out: &mut [[f64; 3]]) -> bool {

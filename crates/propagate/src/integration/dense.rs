@@ -100,8 +100,8 @@ impl Forced for Integrated {
         dispatch(arch, ByCursor { motion: self, run })
     }
 
-    fn ends(&self) -> Option<[End; 2]> {
-        Some([(self.reach[0].abs(), BEFORE), (self.reach[1], AFTER)])
+    fn ends(&self, _: End) -> [End; 2] {
+        [(self.reach[0].abs(), BEFORE), (self.reach[1], AFTER)]
     }
 }
 

@@ -31,9 +31,9 @@ pub(crate) trait Forced: Debug + Send + Sync + UnwindSafe + RefUnwindSafe {
     /// Evaluates the times of a run.
     fn fill(&self, arch: Arch, run: Run<'_>) -> Result<(), Halt>;
 
-    /// The ends before and after the epoch, unless the phases alone bound the times.
-    fn ends(&self) -> Option<[End; 2]> {
-        None
+    /// The ends before and after the epoch; `phases` is the end that the phases of the free motion set.
+    fn ends(&self, phases: End) -> [End; 2] {
+        [phases; 2]
     }
 
     /// Writes the angular momenta in inertial components at `times`; `epoch` is in the same scale. Returns false if they follow from attitudes and rates.

@@ -250,11 +250,10 @@ impl Motion {
         // The time is also bounded for a body at rest, or for one that turns once in 1e285 units, so that no sum of two times overflows.
         let phases = MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude;
         let phases = if phases < LONGEST { (phases, ": farther away the motion has no phase") } else { (LONGEST, "") };
-        let own = match &self.trajectory {
-            Trajectory::Forced(motion) => motion.ends(),
-            _ => None,
-        };
-        own.map_or([phases; 2], |ends| ends.map(|end| if end.0 < phases.0 { end } else { phases }))
+        match &self.trajectory {
+            Trajectory::Forced(motion) => motion.ends(phases),
+            _ => [phases; 2],
+        }
     }
 
     /// Checks that all times have a phase; `epoch` is in the same scale as the times.
