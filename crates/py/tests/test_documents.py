@@ -121,8 +121,17 @@ def test_errors_that_the_pages_name_exist_and_are_raised_for_what_they_say():
     pages = [REPOSITORY / "README.md", REPOSITORY / "CHANGELOG.md", *(REPOSITORY / "docs").glob("*.md")]
     named = {(page.name, name) for page in pages for name in re.findall(r"`(?:andoyer\.)?(\w+Error)`", page.read_text(encoding="utf-8"))}
     assert ("gravity-gradient.md", "TheoryError") in named
-    assert not [(page, name) for page, name in named if not (hasattr(andoyer, name) or name in dir(builtins))]
+    # OnError is a variant of the Rust errors.
+    assert not [(page, name) for page, name in named if not (hasattr(andoyer, name) or name in (*dir(builtins), "OnError"))]
     # A synchronous moon, which gravity-gradient.md gives as an example.
     moon = andoyer.Scene(andoyer.Body.named("moon"), [0, 0, 0, 1], [0, 0, 1], orbit=andoyer.Orbit(1.0, 0.0554))
     with pytest.raises(andoyer.TheoryError):
         moon.solve()
+
+
+def test_troubleshooting_names_every_error_of_the_crates():
+    page = (REPOSITORY / "docs/troubleshooting.md").read_text(encoding="utf-8")
+    sources = [(REPOSITORY / f"crates/{crate}/src/error.rs").read_text(encoding="utf-8") for crate in ("propagate", "series")]
+    variants = [name for source in sources for name in re.findall(r"^ *#\[error\((?:.|\n)*?\)\]\n *([A-Z]\w+)", source, re.MULTILINE)]
+    assert len(variants) > 90
+    assert [name for name in variants if f"`{name}`" not in page] == []
