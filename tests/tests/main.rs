@@ -28,5 +28,6 @@ mod separatrix;
 mod stop;
 mod threads;
 mod torque_free;
+mod torques;
 mod user_axes;
 mod verify;

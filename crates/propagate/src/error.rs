@@ -198,6 +198,11 @@ andoyer_series::error_table! {
         #[error("orbit.semi_major_axis: none is given, and a position on the orbit needs it; it must be positive, in the unit of length of the position")]
         NoSemiMajorAxis => Input, facts("semi_major_axis", "none", "positive");
 
+        /// A torque with an invalid number, name, power or polynomial.
+        #[error("torque.{argument} = {value}: it must be {bound}")]
+        Torque { argument: &'static str = "The argument.", value: String = "The value as given.", bound: String = "The requirement." }
+        => Input, facts(*argument, value, bound);
+
         /// An unknown level of the gravity-gradient theory.
         #[error("level = {value:?}: it must be \"auto\", \"paper\", \"moving\", \"full\" or \"second-order\"")]
         Level { value: String = "The level as given." } => Input, facts("level", value, "auto, paper, moving, full, second-order");

@@ -102,6 +102,11 @@ pub mod libration_terms {
     pub use crate::libration::terms::{LibrationAngle, LibrationTerm};
 }
 
+pub mod torques {
+    //! Torques beside the gravity gradient, under which scenes are integrated.
+    pub use crate::input::torque::{PolynomialTorque, SourcePath, Torque, TorqueSource};
+}
+
 pub mod batch {
     //! A motion at many times at once.
     pub use crate::motion::batch::Batch;

@@ -192,7 +192,8 @@ impl Motion {
             attitude: attitude * next_axes(),
             angular_velocity: Vector3::new(rates.y, rates.z, rates.x),
         };
-        let mut scene = self.scene.starting_from(Body::new([second, third, first])?, state);
+        let torques: Vec<_> = self.scene.asked_torques().iter().map(|torque| torque.turned(&next_axes())).collect();
+        let mut scene = self.scene.starting_from(Body::new([second, third, first])?, state).torques(torques);
         if first == second && second == third {
             // No body exerts a torque on a sphere, and a table need not reach over the span.
             scene = scene.disturbing(Vec::<DisturbingBody>::new());

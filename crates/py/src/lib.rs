@@ -37,6 +37,7 @@ mod samples;
 mod scene;
 mod scene_class;
 mod tabulated;
+mod torque;
 mod verification;
 
 /// The compiled core of the package `andoyer`, which re-exports all its names.
@@ -82,6 +83,8 @@ mod _core {
     use super::scene_class::Scene;
     #[pymodule_export]
     use super::tabulated::TabulatedOrbit;
+    #[pymodule_export]
+    use super::torque::Torque;
     #[pymodule_export]
     use super::verification::Verification;
 

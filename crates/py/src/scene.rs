@@ -17,6 +17,7 @@ use crate::foreign::{self};
 use crate::motion::Motion;
 use crate::orbit::{self};
 use crate::scene_class::Scene;
+use crate::torque::{self, Torque};
 use crate::{array, error};
 
 pub(crate) mod arguments;
@@ -31,10 +32,10 @@ impl Scene {
     #[pyo3(
         signature = (
             body, attitude, angular_velocity, *, epoch=None, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
-            averaging="auto", level="auto", name=None, source=None, scalar_first=false
+            averaging="auto", level="auto", torques=None, name=None, source=None, scalar_first=false
         ),
         text_signature = "(body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method='auto', order=None, span=None, \
-                          averaging='auto', level='auto', name=None, source=None, scalar_first=False)"
+                          averaging='auto', level='auto', torques=None, name=None, source=None, scalar_first=False)"
     )]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn new(
@@ -49,6 +50,7 @@ impl Scene {
         span: Option<&Bound<'_, PyAny>>,
         averaging: &str,
         level: &str,
+        torques: Option<&Bound<'_, PyAny>>,
         name: Option<&str>,
         source: Option<&str>,
         scalar_first: bool,
@@ -68,6 +70,9 @@ impl Scene {
             .level(level.parse().map_err(error::propagation)?);
         if let Some(orbit) = orbit {
             scene = scene.disturbing(disturbing_bodies(orbit)?);
+        }
+        if let Some(given) = torques {
+            scene = scene.torques(torque::torques(given)?);
         }
         if let Some(value) = order {
             scene = scene.order(crate::order::order("order", value, 0, MAX_ORDER)?);
@@ -110,7 +115,7 @@ impl Scene {
     /// epoch : float or Time, optional
     ///     Time of the state. With a `Time` the unit of the periods is the second.
     /// **options
-    ///     The other keyword arguments of `Scene`: orbit, tolerance, method, order, span, averaging, level, name, source.
+    ///     The other keyword arguments of `Scene`: orbit, tolerance, method, order, span, averaging, level, torques, name, source.
     ///
     /// Raises
     /// ------
@@ -334,6 +339,13 @@ impl Scene {
         self.scene.asked_level().to_string()
     }
 
+    /// The torques beside the gravity gradient, a tuple.
+    #[getter]
+    fn torques<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let torques = self.scene.asked_torques().iter().map(|torque| Bound::new(py, Torque(torque.clone())));
+        PyTuple::new(py, torques.collect::<PyResult<Vec<_>>>()?)
+    }
+
     /// The name, or None.
     #[getter]
     fn name(&self) -> Option<&str> {
@@ -410,6 +422,9 @@ impl Scene {
         keywords.set_item("span", self.span())?;
         keywords.set_item("averaging", self.averaging())?;
         keywords.set_item("level", self.level())?;
+        if !self.scene.asked_torques().is_empty() {
+            keywords.set_item("torques", self.torques(py)?)?;
+        }
         keywords.set_item("name", self.name())?;
         keywords.set_item("source", self.source())?;
         Ok(keywords)

@@ -51,6 +51,8 @@ use crate::foreign::Calendar;
 ///     How much of the theory of the gravity gradient is used. "full": first order in the torque, to all orders in J. "second-order": the
 ///     averaged motion to second order too, by either averaging (theory, section 9). "auto" (default): "full" where it meets the
 ///     tolerance, else "second-order" where its error bound is smaller. "moving": corrections at J = 0 alone. "paper": those with the disturbing body held fixed.
+/// torques : Torque or sequence of Torque, optional
+///     Torques beside the gravity gradient. A scene with any of them is integrated over its span.
 /// name, source : str, optional
 ///     A name and a source of the figures, kept with the scene and printed.
 ///

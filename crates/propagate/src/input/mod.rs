@@ -1,4 +1,4 @@
-//! The user's input: body and catalogue, state, options, scene. All values are validated here, those of an orbit in [`crate::orbit`].
+//! The user's input: body and catalogue, state, torques, options, scene. All values are validated here, those of an orbit in [`crate::orbit`].
 //!
 //! Imports errors and orbit.
 
@@ -8,3 +8,4 @@ pub(crate) mod options;
 mod principal_axes;
 pub(crate) mod scene;
 pub(crate) mod state;
+pub(crate) mod torque;

@@ -5,6 +5,7 @@ use nalgebra::UnitQuaternion;
 use super::body::Body;
 use super::options::{Averaging, Level, MAX_ORDER, Method};
 use super::state::State;
+use super::torque::Torque;
 use crate::error::Error;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
@@ -28,6 +29,7 @@ pub struct Scene {
     method: Method,
     order: Option<usize>,
     disturbing: Vec<DisturbingBody>,
+    torques: Vec<Torque>,
     averaging: Averaging,
     level: Level,
     span: Option<(f64, f64)>,
@@ -45,6 +47,7 @@ impl Scene {
             method: Method::Auto,
             order: None,
             disturbing: Vec::new(),
+            torques: Vec::new(),
             averaging: Averaging::Auto,
             level: Level::default(),
             span: None,
@@ -97,6 +100,13 @@ impl Scene {
         self
     }
 
+    /// Sets the torques beside the gravity gradient, in place of those that the scene had. A scene with any of them is integrated.
+    #[must_use]
+    pub fn torques(mut self, torques: impl IntoIterator<Item = Torque>) -> Self {
+        self.torques = torques.into_iter().collect();
+        self
+    }
+
     /// Sets the averaging of a scene with an orbit. The default is [`Averaging::Auto`].
     #[must_use]
     pub fn averaging(mut self, averaging: Averaging) -> Self {
@@ -136,7 +146,8 @@ impl Scene {
     pub(crate) fn about_principal_axes(&self, turn: UnitQuaternion<f64>) -> Self {
         let State { epoch, attitude, angular_velocity } = self.state;
         let state = State { epoch, attitude: attitude * turn, angular_velocity: turn.inverse() * angular_velocity };
-        self.starting_from(self.body.about_principal_axes(), state)
+        let torques = self.torques.iter().map(|torque| torque.turned(&turn)).collect();
+        Self { torques, ..self.starting_from(self.body.about_principal_axes(), state) }
     }
 
     /// The same scene with another state. The span stays.
@@ -198,6 +209,11 @@ impl Scene {
         &self.disturbing
     }
 
+    /// The torques beside the gravity gradient.
+    pub fn asked_torques(&self) -> &[Torque] {
+        &self.torques
+    }
+
     /// The requested averaging.
     pub fn asked_averaging(&self) -> Averaging {
         self.averaging
@@ -229,6 +245,7 @@ impl Scene {
     /// - [`Error::Tolerance`] for 0, −1, NaN or an infinity.
     /// - [`Error::Order`] for 61.
     /// - [`Error::Span`] for (1, 0), or for times that are not finite.
+    /// - [`Error::Torque`] for a torque that is not finite.
     /// - [`Error::Epoch`], [`Error::Attitude`], [`Error::AngularVelocity`] for an invalid state: see [`State::new`].
     pub fn validate(&self) -> Result<(), Error> {
         self.validated().map(|_| ())
@@ -246,7 +263,7 @@ impl Scene {
         Ok(self)
     }
 
-    /// Whether tolerance, order and span are valid.
+    /// Whether tolerance, order, span and torques are valid.
     pub(crate) fn validate_options(&self) -> Result<(), Error> {
         if !(self.tolerance.is_finite() && self.tolerance > 0.0) {
             return Err(Error::Tolerance { value: self.tolerance });
@@ -259,6 +276,6 @@ impl Scene {
         {
             return Err(Error::Span { start, stop });
         }
-        Ok(())
+        self.torques.iter().try_for_each(Torque::validate)
     }
 }

@@ -92,7 +92,7 @@ impl MeasuredSteps<'_> {
     /// The error of the attitude by the norm of the quaternion and, without a torque, by the integrals of the free motion \[rad\].
     fn drift(&self, step: &Step) -> f64 {
         let by_norm = 2.0 * (norm(&step.attitude) - 1.0).abs();
-        if !self.equations.bodies.is_empty() {
+        if !self.equations.is_free() {
             return by_norm;
         }
         // Rates that are wrong by a relative ε change the integrals by 2ε and the angle by ε times the phase.
@@ -135,7 +135,7 @@ impl Task for MeasuredSteps<'_> {
         let mut equations = constants(scale);
         let mut runner = self.displaced(displacement.map(|displacement| scale * displacement));
         let precision = precision.shorter(if enlarged { LONGER } else { SHORTER });
-        let mut workspace = Workspace::new(equations.bodies.len());
+        let mut workspace = Workspace::new(&equations);
         let (mut profile, mut bound) = (Profile::new(), 0.0_f64);
         let mut random = SEED;
         let stride = steps.len().div_ceil(COMPARISONS);
@@ -188,7 +188,7 @@ impl Task for Interpolated<'_> {
         let Self { equations, precision, steps, backward, stop } = self;
         let first = steps[0].start(backward);
         let mut runner = Runner::new(first.attitude, first.rates, backward);
-        let mut workspace = Workspace::new(equations.bodies.len());
+        let mut workspace = Workspace::new(equations);
         let (mut profile, mut largest) = (Profile::new(), 0.0_f64);
         for group in steps[1..].chunks(steps.len().div_ceil(COMPARISONS)) {
             let Some(target) = group.last() else { continue };

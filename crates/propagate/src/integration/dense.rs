@@ -31,7 +31,7 @@ pub(crate) struct Cursor<'a> {
 
 impl<'a> Cursor<'a> {
     pub(crate) fn new(motion: &'a Integrated) -> Self {
-        Self { motion, workspace: Workspace::new(motion.equations.bodies.len()), expanded: None }
+        Self { motion, workspace: Workspace::new(&motion.equations), expanded: None }
     }
 
     /// Attitude and rates a time after the epoch, in the user's unit.

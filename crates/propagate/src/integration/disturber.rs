@@ -5,6 +5,7 @@
 //! (e − cosh H, √(e²−1) sinh H) in units of |a|.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use super::interpolation::Table;
 use super::series::{ROWS, Row, Scalars, Series, ZERO, add_scaled};
@@ -15,8 +16,12 @@ use crate::orbit::elements::Orbit;
 use crate::orbit::hyperbola::hyperbolic_anomaly;
 use crate::orbit::kepler::eccentric_anomaly;
 use crate::orbit::position::singularity;
+use crate::orbit::table::TabulatedOrbit;
 use crate::simd::instruction_set::InstructionSet;
 use crate::torque::strength;
+
+/// The power of the distance in the series of the gravity gradient.
+const GRAVITY: f64 = -2.5;
 
 /// A disturbing body with its times and rates in the unit of the integration.
 #[derive(Clone, Debug)]
@@ -43,8 +48,9 @@ pub(super) struct Conic {
     /// The mean anomaly of the singularity above the pericentre, over the imaginary unit.
     singularity: f64,
     tilt: (f64, f64),
-    /// √(3μ).
+    /// The series is `strength` times this power of the distance times the position: √(3μ) and −5/2 for the gravity gradient.
     strength: f64,
+    power: f64,
     /// Exponent of the unit of time.
     exponent: i32,
 }
@@ -53,8 +59,38 @@ impl Disturber {
     /// From the epoch of the scene and the exponent of the unit of rates.
     pub(super) fn new(body: &DisturbingBody, epoch: f64, exponent: i32) -> Self {
         match body {
-            DisturbingBody::Orbit(orbit) => Self::Conic(Box::new(Conic::new(orbit, epoch, exponent))),
-            DisturbingBody::Tabulated(table) => Self::Tabulated(Box::new(Table::new(table, epoch, exponent))),
+            DisturbingBody::Orbit(orbit) => {
+                let strength = scaled((2.0 * strength(orbit.strength())).sqrt(), -exponent);
+                Self::of_orbit(orbit, (epoch, exponent), (strength, GRAVITY))
+            }
+            DisturbingBody::Tabulated(table) => {
+                let length = Table::length(table);
+                let strength = scaled((3.0 * table.gm() / length).sqrt() / length, -exponent);
+                Self::of_table(table, (epoch, exponent), (strength, GRAVITY))
+            }
+        }
+    }
+
+    /// A body on an orbit whose series is a factor times a power of the distance in semi-major axes times the position.
+    pub(super) fn of_orbit(orbit: &Orbit, (epoch, exponent): (f64, i32), factor: (f64, f64)) -> Self {
+        Self::Conic(Box::new(Conic::new(orbit, (epoch, exponent), factor)))
+    }
+
+    /// A body with a table whose series is a factor times a power of the distance times the position, both in units of [`Table::length`].
+    pub(super) fn of_table(table: &Arc<TabulatedOrbit>, (epoch, exponent): (f64, i32), factor: (f64, f64)) -> Self {
+        Self::Tabulated(Box::new(Table::new(table, (epoch, exponent), factor)))
+    }
+
+    /// The series of the factor and the power of the distance alone.
+    pub(super) fn factor<S: InstructionSet>(
+        &self,
+        simd: S,
+        (time, backward): ((f64, f64), bool),
+        order: usize,
+    ) -> Scalars {
+        match self {
+            Self::Conic(orbit) => orbit.factor(simd, time, order),
+            Self::Tabulated(table) => table.expanded((time, backward), order).1,
         }
     }
 
@@ -100,7 +136,7 @@ impl Disturber {
 }
 
 impl Conic {
-    fn new(orbit: &Orbit, epoch: f64, exponent: i32) -> Self {
+    fn new(orbit: &Orbit, (epoch, exponent): (f64, i32), (strength, power): (f64, f64)) -> Self {
         let [node, argument] = orbit.node_and_argument(epoch);
         let eccentricity = orbit.eccentricity();
         let root = ((1.0 - eccentricity) * (1.0 + eccentricity)).abs().sqrt();
@@ -116,7 +152,8 @@ impl Conic {
             root,
             singularity: singularity(eccentricity),
             tilt: orbit.tilt(),
-            strength: scaled((2.0 * strength(orbit.strength())).sqrt(), -exponent),
+            strength,
+            power,
             exponent,
         }
     }
@@ -147,6 +184,12 @@ impl Conic {
         (mean * mean + self.singularity * self.singularity).sqrt() / self.mean_motion
     }
 
+    /// The series of the factor and the power of the distance.
+    fn factor<S: InstructionSet>(&self, simd: S, (high, low): (f64, f64), order: usize) -> Scalars {
+        let elapsed = (scaled(high, -self.exponent), scaled(low, -self.exponent));
+        self.conic(simd, self.mean(elapsed).1, order).1
+    }
+
     /// Whole turns of the mean anomaly since the epoch, and the angle beyond them.
     #[inline(always)]
     fn mean(&self, elapsed: (f64, f64)) -> (f64, f64) {
@@ -165,7 +208,7 @@ impl Conic {
         (of((scaled(high, -self.exponent), scaled(low, -self.exponent))) - of((0.0, 0.0))).abs()
     }
 
-    /// Position in the orbit's axes, and √(3μ) ρ^(−5/2), from the mean anomaly.
+    /// Position in the orbit's axes, and the factor with the power of the distance, from the mean anomaly.
     #[inline(always)]
     fn conic<S: InstructionSet>(&self, simd: S, mean: f64, order: usize) -> (Series, Scalars) {
         let e = self.eccentricity;
@@ -176,7 +219,11 @@ impl Conic {
         let inverse = 1.0 / radius;
         let (mut rate, mut factor): (Scalars, Scalars) = ([0.0; ROWS], [0.0; ROWS]);
         rate[0] = self.mean_motion * inverse;
-        factor[0] = self.strength * inverse * inverse / radius.sqrt();
+        factor[0] = if self.power == GRAVITY {
+            self.strength * inverse * inverse / radius.sqrt()
+        } else {
+            self.strength * radius.powf(self.power)
+        };
         // x, sin E, ρ and k ρ of order k.
         let mut rows = ZERO;
         let mut ellipse = ZERO;
@@ -187,7 +234,7 @@ impl Conic {
             let by_factor = convolved(simd, &factor, &rows, k);
             if k > 0 {
                 rate[k] = -by_rate[2] * inverse;
-                factor[k] = -inverse * (1.5 * by_factor[3] / k as f64 + by_factor[2]);
+                factor[k] = -inverse * (-(self.power + 1.0) * by_factor[3] / k as f64 + by_factor[2]);
             }
             let share = 1.0 / (k + 1) as f64;
             // The cosine is x + e, and the hyperbolic one e − x.

@@ -6,11 +6,18 @@
 //! q′ = ½ q ω,   ω1′ = f1 (Σ s2 s3 − ω2 ω3) with f1 = (I3 − I2)/I1, and in turn
 //! ```
 //!
+//! Other torques ([`super::torques`]) are added to ω′.
+//!
 //! Products of series are sums over four lanes at once: q with three permuted columns, the rows of R, cyclic neighbours of ω and s. The matrix of a quaternion
 //! of norm 1 + ε is R (1 + 2ε), so that rounding of the norm is a relative rounding error of the torque.
 
+use std::sync::Arc;
+
+use nalgebra::{Matrix3, Vector3};
+
 use super::disturber::Disturber;
 use super::series::{Coefficients, ROWS, Row, Series, StateLanes, ZERO, add_product, add_scaled, largest};
+use super::torques::{PolynomialSeries, Torques};
 use crate::input::scene::Scene;
 use crate::simd::instruction_set::{InstructionSet, Task};
 
@@ -22,6 +29,9 @@ pub(super) struct Equations<const W: usize> {
     pub(super) bodies: Vec<Disturber>,
     /// Factor of the torque of each body: 1, and next to 1 for a state with displaced constants.
     pub(super) strengths: Vec<StateLanes<W>>,
+    /// The torques beside the gravity gradient, and their factor in each state.
+    pub(super) torques: Option<Arc<Torques>>,
+    share: StateLanes<W>,
     /// √(3 Σμ) at the mean distance. Errors of rates are relative to this rate at least.
     pub(super) scale: f64,
 }
@@ -33,7 +43,9 @@ impl Equations<4> {
         let bodies: Vec<_> =
             scene.asked_disturbing().iter().map(|body| Disturber::new(body, epoch, exponent)).collect();
         let strengths = vec![[1.0; 4]; bodies.len()];
-        Self { factors: [(c - b) / a, (a - c) / b, (b - a) / c, 0.0], bodies, strengths, scale }
+        let factors = [(c - b) / a, (a - c) / b, (b - a) / c, 0.0];
+        let torques = Torques::new(scene, exponent).map(Arc::new);
+        Self { factors, bodies, strengths, torques, share: [1.0; 4], scale }
     }
 
     /// The equations of several states with displaced constants. `errors` has the relative errors of the ratios of the moments and of each torque; each state
@@ -43,7 +55,15 @@ impl Equations<4> {
         let strengths = (0..self.bodies.len())
             .map(|body| std::array::from_fn(|i| 1.0 + torques * signs[i / 4][body % 4]))
             .collect();
-        Equations { factors, bodies: self.bodies.clone(), strengths, scale: self.scale }
+        let share = std::array::from_fn(|i| 1.0 + torques * signs[i / 4][3]);
+        Equations {
+            factors,
+            bodies: self.bodies.clone(),
+            strengths,
+            torques: self.torques.clone(),
+            share,
+            scale: self.scale,
+        }
     }
 
     /// Relative change of the integrals of the free motion, f2 ω1² − f1 ω2² and in turn: combinations of the energy and of the square of the angular momentum.
@@ -61,7 +81,23 @@ impl Equations<4> {
 
     /// These equations with tables interpolated by the earlier or the later of the neighbouring polynomials.
     pub(super) fn neighbouring(&self, earlier: bool) -> Self {
-        Self { bodies: self.bodies.iter().map(|body| body.neighbouring(earlier)).collect(), ..self.clone() }
+        Self {
+            bodies: self.bodies.iter().map(|body| body.neighbouring(earlier)).collect(),
+            torques: self.torques.as_ref().map(|torques| Arc::new(torques.neighbouring(earlier))),
+            ..self.clone()
+        }
+    }
+}
+
+impl<const W: usize> Equations<W> {
+    /// The bodies whose gravity gradients act, and those that are sources of other torques.
+    pub(super) fn paths(&self) -> impl Iterator<Item = &Disturber> {
+        self.bodies.iter().chain(self.torques.iter().flat_map(|torques| torques.paths()))
+    }
+
+    /// Whether no torque acts.
+    pub(super) fn is_free(&self) -> bool {
+        self.bodies.is_empty() && self.torques.is_none()
     }
 }
 
@@ -187,6 +223,9 @@ pub(super) struct Workspace<const W: usize> {
     pub(super) rates: [StateLanes<W>; ROWS],
     /// First coefficients of the parts of Euler's equations: Σ s2 s3 and ω2 ω3.
     pub(super) parts: [StateLanes<W>; 2],
+    /// First coefficient of the angular acceleration by the torques beside the gravity gradient.
+    pub(super) further: StateLanes<W>,
+    polynomials: Vec<PolynomialSeries>,
     factors: [Factors<W>; ROWS],
     places: Vec<Series>,
     /// The least radius of convergence of the series of a body, infinite without a body.
@@ -196,8 +235,11 @@ pub(super) struct Workspace<const W: usize> {
 }
 
 impl<const W: usize> Workspace<W> {
-    pub(super) fn new(bodies: usize) -> Box<Self> {
+    pub(super) fn new(equations: &Equations<W>) -> Box<Self> {
+        let bodies = equations.bodies.len();
         Box::new(Self {
+            further: [0.0; W],
+            polynomials: equations.torques.as_ref().map_or_else(Vec::new, |torques| torques.room(W / 4)),
             attitude: [[0.0; W]; ROWS],
             rates: [[0.0; W]; ROWS],
             parts: [[0.0; W]; 2],
@@ -221,6 +263,10 @@ impl<const W: usize> Workspace<W> {
         for (body, place) in equations.bodies.iter().zip(&mut self.places) {
             self.radius = self.radius.min(body.series(simd.four(), (start.time, start.backward), order, place));
         }
+        if let Some(torques) = &equations.torques {
+            let time = (start.time, start.backward);
+            self.radius = self.radius.min(torques.begin(simd.four(), time, order, &mut self.polynomials));
+        }
         self.attitude[0] = start.attitude;
         self.rates[0] = start.rates;
         for k in 0..order {
@@ -243,6 +289,27 @@ impl<const W: usize> Workspace<W> {
             for lane in 0..W {
                 self.rates[k + 1][lane] = equations.factors[lane] * (torque[lane] - sums.gyration[lane]) * share;
                 self.attitude[k + 1][lane] = 0.5 * share * (one[lane] + two[lane] + three[lane]);
+            }
+            if let Some(torques) = &equations.torques {
+                self.add_further(torques, &equations.share, k, share);
+            }
+        }
+    }
+
+    /// Adds the torques beside the gravity gradient to coefficient k + 1 of the rates.
+    fn add_further(&mut self, torques: &Torques, factor: &StateLanes<W>, k: usize, share: f64) {
+        for state in 0..W / 4 {
+            let at = 4 * state;
+            let (rates, factors) = (&self.rates, &self.factors);
+            let rate = |j: usize| Vector3::new(rates[j][at], rates[j][at + 1], rates[j][at + 2]);
+            let matrix = |j: usize| Matrix3::from_fn(|row, column| factors[j].matrix[row][at + column]);
+            let found = torques.coefficient((k, state), rate, matrix, &mut self.polynomials);
+            for axis in 0..3 {
+                let found = found[axis] * factor[at + axis];
+                self.rates[k + 1][at + axis] += found * share;
+                if k == 0 {
+                    self.further[at + axis] = found;
+                }
             }
         }
     }

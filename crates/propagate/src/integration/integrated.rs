@@ -11,8 +11,10 @@ use super::disturber::Disturber;
 use super::expansion::Equations;
 use super::integrator::{KeptSteps, Precision, ROUNDING, Runner, Side, Step};
 use super::series::{Row, largest};
+use super::torques::Torques;
 use crate::error::Error;
 use crate::input::scene::Scene;
+use crate::input::torque::{SourcePath, Torque};
 use crate::motion::plan::IntegrationPlan;
 use crate::motion::verification_cost::VerificationCost;
 use crate::numerics::scaling::{exponent, scaled};
@@ -49,6 +51,7 @@ pub(crate) struct Integrated {
     pub(crate) error: f64,
     /// As in the plan.
     uninterpolated: Option<f64>,
+    torques: usize,
 }
 
 impl Integrated {
@@ -100,7 +103,12 @@ impl Integrated {
     /// The entries of the plan.
     pub(crate) fn plan(&self) -> IntegrationPlan {
         let steps = self.sides.iter().map(|side| side.steps.len() - 1).sum();
-        IntegrationPlan { steps, bodies: self.equations.bodies.len(), uninterpolated: self.uninterpolated }
+        IntegrationPlan {
+            steps,
+            bodies: self.equations.bodies.len(),
+            torques: self.torques,
+            uninterpolated: self.uninterpolated,
+        }
     }
 
     /// The order of the series.
@@ -124,7 +132,7 @@ pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
 /// The cost of a verification of a motion under torques over the span of its scene; `None` without a span.
 pub(crate) fn verification_cost(scene: &Scene) -> Option<VerificationCost> {
     let bodies = scene.asked_disturbing().len();
-    if bodies == 0 {
+    if bodies == 0 && scene.asked_torques().is_empty() {
         return VerificationCost::over_span(scene);
     }
     let ((start, stop), epoch) = (scene.asked_span()?, scene.state().epoch);
@@ -147,6 +155,8 @@ struct Problem {
     /// From the epoch, in double-double and the unit of the integration.
     ends: [(f64, f64); 2],
     reach: [f64; 2],
+    /// Number of torques beside the gravity gradient.
+    torques: usize,
 }
 
 impl Problem {
@@ -165,16 +175,24 @@ impl Problem {
                     rates_of_orbit(orbit, [start, stop])
                 }
                 DisturbingBody::Tabulated(table) => {
-                    let (first, last) = table.ends();
-                    if start < first || stop > last {
-                        return Err(Error::TableSpan { start, stop, first, last });
-                    }
+                    covered(table, (start, stop))?;
                     rates_of_table(table)
                 }
             };
             fastest = fastest.max(rate);
             lasting = lasting.max(least);
             square += least * least;
+        }
+        for torque in scene.asked_torques() {
+            if let Torque::Polynomial(polynomial) = torque {
+                polynomial.sources().iter().try_for_each(|source| reached(source.path(), (start, stop), epoch))?;
+            }
+        }
+        if let Some(torques) = Torques::new(scene, 0) {
+            let rate = torques.rate(&scene.state().angular_velocity.push(0.0).into());
+            fastest = fastest.max(rate);
+            lasting = lasting.max(rate);
+            square += rate * rate;
         }
         // A coefficient of order k is a rate to the power k: the unit is the mean of a pericentre and the rest, so that neither leaves the range of a double. At
         // rest it is the longer side, for the powers of a step.
@@ -195,12 +213,13 @@ impl Problem {
             secular: scaled(secular, -exponent),
             ends: [end(start), end(stop)],
             reach: [start - epoch, stop - epoch],
+            torques: scene.asked_torques().len(),
         })
     }
 
     /// Whether a disturbing body has a table.
     fn tabulated(&self) -> bool {
-        self.equations.bodies.iter().any(|body| matches!(body, Disturber::Tabulated(_)))
+        self.equations.paths().any(|body| matches!(body, Disturber::Tabulated(_)))
     }
 
     /// Radians of the fastest rate over the longer side.
@@ -214,7 +233,7 @@ impl Problem {
     /// of convergence or more.
     fn most_steps(&self) -> f64 {
         let longest = self.ends[0].0.abs().max(self.ends[1].0.abs());
-        let passages: f64 = self.equations.bodies.iter().flat_map(|body| self.ends.map(|end| body.passed(end))).sum();
+        let passages: f64 = self.equations.paths().flat_map(|body| self.ends.map(|end| body.passed(end))).sum();
         10.0 + 2.0 * self.phase().max(self.secular * longest) + 8.0 * passages
     }
 
@@ -253,7 +272,16 @@ impl Problem {
         let dominated = bound > self.tolerance && 2.0 * uninterpolated < bound;
         let uninterpolated = dominated.then_some(uninterpolated);
         let order = precision.order;
-        let motion = Integrated { equations, order, sides, exponent, reach, error: bound, uninterpolated };
+        let motion = Integrated {
+            equations,
+            order,
+            sides,
+            exponent,
+            reach,
+            error: bound,
+            uninterpolated,
+            torques: self.torques,
+        };
         Ok((motion, profiles))
     }
 
@@ -320,6 +348,21 @@ impl Problem {
             dispatch_few(Arch::new(), Interpolated { equations, precision, steps, backward, stop })
         };
         Ok([departure(true)?, departure(false)?])
+    }
+}
+
+/// Whether a table covers a span.
+fn covered(table: &TabulatedOrbit, (start, stop): (f64, f64)) -> Result<(), Error> {
+    let (first, last) = table.ends();
+    if start < first || stop > last { Err(Error::TableSpan { start, stop, first, last }) } else { Ok(()) }
+}
+
+/// Whether the source of a torque has a position over a span.
+fn reached(path: &SourcePath, span: (f64, f64), epoch: f64) -> Result<(), Error> {
+    match path {
+        SourcePath::Orbit(orbit) => orbit.within_reach(epoch),
+        SourcePath::Tabulated(table) => covered(table, span),
+        SourcePath::Direction(_) => Ok(()),
     }
 }
 

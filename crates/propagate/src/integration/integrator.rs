@@ -197,7 +197,7 @@ impl<const W: usize> Runner<W> {
         self.systematic[1] += omitted * largest(&workspace.rates[order]) * last;
         let [torque, gyration] = &workspace.parts;
         let by_rates = ROUNDING[0] * largest(torque) + ROUNDING[1] * largest(gyration);
-        let rate = by_rates * largest(&equations.factors) * length;
+        let rate = (by_rates * largest(&equations.factors) + ROUNDING[0] * largest(&workspace.further)) * length;
         let angle = ROUNDING[1] * largest(&self.rates) * length;
         self.rounded[0] += angle * angle;
         self.rounded[1] += rate * rate;
@@ -258,7 +258,7 @@ impl Task for KeptSteps<'_> {
     #[inline(always)]
     fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
         let Self { equations, precision, mut runner, target, stop } = self;
-        let mut workspace = Workspace::new(equations.bodies.len());
+        let mut workspace = Workspace::new(equations);
         let (mut steps, mut coefficients) = (Vec::new(), Vec::new());
         let (mut kept, forward) = (true, !runner.backward);
         let mut fast = None;
@@ -290,7 +290,7 @@ impl Task for KeptSteps<'_> {
 
 /// The nearest time at which the series of a body ends.
 pub(super) fn next_knot<const W: usize>(equations: &Equations<W>, time: f64, forward: bool) -> Option<(f64, f64)> {
-    let knots = equations.bodies.iter().filter_map(|body| body.next_knot(time, forward));
+    let knots = equations.paths().filter_map(|body| body.next_knot(time, forward));
     knots.min_by(|one, other| one.0.abs().total_cmp(&other.0.abs()))
 }
 
@@ -298,7 +298,7 @@ pub(super) fn next_knot<const W: usize>(equations: &Equations<W>, time: f64, for
 /// each kind grows at least by the least of the factors by which they grow.
 fn affordable(equations: &Equations<4>, steps: usize, now: (f64, f64), target: (f64, f64)) -> Result<(), Error> {
     // A circle has 0/0 here, which is no minimum.
-    let growth = equations.bodies.iter().map(|body| body.passed(target) / body.passed(now));
+    let growth = equations.paths().map(|body| body.passed(target) / body.passed(now));
     let growth = growth.fold(target.0 / now.0, f64::min);
     let whole = steps as f64 * growth;
     let bound = MOST_STEPS as f64 * if steps < TYPICAL { HOPELESS } else { 1.0 };

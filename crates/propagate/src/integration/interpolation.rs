@@ -18,22 +18,32 @@ pub(super) struct Table {
     knots: Arc<Vec<(f64, f64)>>,
     /// A length by which positions are divided.
     length: f64,
-    /// √(3 gm/length³).
+    /// The series is `strength` times this power of the distance over `length` times the position over `length`: √(3 gm/length³) and −5/2 for the gravity
+    /// gradient.
     strength: f64,
+    power: f64,
     /// Whether a polynomial is the earlier or the later neighbour of the one of its interval.
     earlier: Option<bool>,
 }
 
 impl Table {
-    pub(super) fn new(orbit: &Arc<TabulatedOrbit>, epoch: f64, exponent: i32) -> Self {
+    /// The length by which positions are divided: the first distance.
+    pub(super) fn length(orbit: &TabulatedOrbit) -> f64 {
+        let [x, y, z] = orbit.positions()[0];
+        x.hypot(y).hypot(z)
+    }
+
+    pub(super) fn new(
+        orbit: &Arc<TabulatedOrbit>,
+        (epoch, exponent): (f64, i32),
+        (strength, power): (f64, f64),
+    ) -> Self {
         let knots = orbit.times().iter().map(|time| {
             let (high, low) = two_sum(*time, -epoch);
             (scaled(high, exponent), scaled(low, exponent))
         });
-        let [x, y, z] = orbit.positions()[0];
-        let length = x.hypot(y).hypot(z);
-        let strength = scaled((3.0 * orbit.gm() / length).sqrt() / length, -exponent);
-        Self { orbit: orbit.clone(), knots: Arc::new(knots.collect()), length, strength, earlier: None }
+        let (knots, length) = (Arc::new(knots.collect()), Self::length(orbit));
+        Self { orbit: orbit.clone(), knots, length, strength, power, earlier: None }
     }
 
     pub(super) fn neighbouring(&self, earlier: bool) -> Self {
@@ -60,7 +70,23 @@ impl Table {
     }
 
     /// Newton's divided differences, expanded about the time. Returns a radius of convergence: that of a straight path, and less of a bent one.
-    pub(super) fn series(&self, (time, backward): ((f64, f64), bool), order: usize, out: &mut Series) -> f64 {
+    pub(super) fn series(&self, time: ((f64, f64), bool), order: usize, out: &mut Series) -> f64 {
+        let (position, factor, nodes) = self.expanded(time, order);
+        for k in 0..order {
+            let [x, y, z] = position.each_ref().map(|p| product(p, &factor, k));
+            out[k] = [x, y, z, 0.0];
+        }
+        let size = |k: usize| position.iter().map(|p| p[k] * p[k]).sum::<f64>();
+        let nearest = |k: usize| (size(0) / size(k)).powf(0.5 / k as f64);
+        (1..nodes).map(nearest).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The position, the factor with the power of the distance, and the number of times of the polynomial.
+    pub(super) fn expanded(
+        &self,
+        (time, backward): ((f64, f64), bool),
+        order: usize,
+    ) -> ([Scalars; 3], Scalars, usize) {
         let interval = self.interval(time);
         // A step backwards from a time of the table lies in the interval before it.
         let interval = if backward && self.knots[interval] == time { interval.saturating_sub(1) } else { interval };
@@ -97,16 +123,12 @@ impl Table {
         let (mut square, mut factor): (Scalars, Scalars) = ([0.0; ROWS], [0.0; ROWS]);
         for k in 0..order {
             square[k] = position.iter().map(|p| product(p, p, k)).sum();
-            factor[k] = if k == 0 {
-                self.strength / (square[0] * square[0].sqrt().sqrt())
-            } else {
-                power(&square, &factor, -1.25, k)
+            factor[k] = match k {
+                0 if self.power == -2.5 => self.strength / (square[0] * square[0].sqrt().sqrt()),
+                0 => self.strength * square[0].powf(0.5 * self.power),
+                _ => power(&square, &factor, 0.5 * self.power, k),
             };
-            let [x, y, z] = position.each_ref().map(|p| product(p, &factor, k));
-            out[k] = [x, y, z, 0.0];
         }
-        let size = |k: usize| position.iter().map(|p| p[k] * p[k]).sum::<f64>();
-        let nearest = |k: usize| (size(0) / size(k)).powf(0.5 / k as f64);
-        (1..nodes).map(nearest).fold(f64::INFINITY, f64::min)
+        (position, factor, nodes)
     }
 }

@@ -15,6 +15,7 @@ pub(crate) mod integrated;
 pub(crate) mod integrator;
 mod interpolation;
 mod series;
+mod torques;
 
 #[cfg(test)]
 mod tests;

@@ -2,20 +2,21 @@
 //!
 //! R = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν). Axis 3 is the user's axis of greatest inertia, axis 2 the axis of B, and axis 1 the axis of A, reversed if the user's
 //! order A, B, C is left-handed. N < 0 is a body turned over; then μ − ν grows with the mean rate instead of μ + ν. The inclinations are arctangents of sine
-//! and cosine, not arccosines. If a node is not defined, its angle is 0 by convention: λ = 0 at I = 0 or π, ν = 0 at J = 0 or π. μ then contains the sum.
+//! and cosine, not arccosines. The angular momentum includes that of rotors. If a node is not defined, its angle is 0 by convention: λ = 0 at I = 0 or π, ν = 0 at J = 0 or π. μ then contains the sum.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::batch::Batch;
 use super::solved::{Motion, length};
 use crate::error::Error;
+use crate::input::torque::rotors;
 use crate::torque_free::polhode::Frame;
 
 /// Number of times that are evaluated together.
 const AT_ONCE: usize = 64;
 
 impl Motion {
-    /// [λ, μ, ν, Λ, M, N] at a time: angles in (−π, π] \[rad\], momenta in units of moment × rate. All are 0 for a body at rest.
+    /// [λ, μ, ν, Λ, M, N] at a time: angles in (−π, π] \[rad\], momenta in units of moment × rate, with those of rotors. All are 0 for a body at rest.
     ///
     /// ```
     /// use andoyer_propagate::{Body, Scene, State};
@@ -52,7 +53,8 @@ impl Motion {
         let moments = self.scene.body().moments();
         // Axis 3 keeps its direction.
         let frame = Frame::new(moments, [0.0; 3], false);
-        let [g1, g2, g3] = frame.sorted(std::array::from_fn(|i| moments[i] * rates[i]));
+        let rotors = rotors(self.scene.asked_torques());
+        let [g1, g2, g3] = frame.sorted(std::array::from_fn(|i| moments[i] * rates[i] + rotors[i]));
         let node = node_angle(total.x, -total.y);
         let spin = node_angle(g1, g2);
         let inclination = total.x.hypot(total.y).atan2(total.z);

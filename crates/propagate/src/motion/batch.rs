@@ -8,6 +8,7 @@ use pulp::Arch;
 use super::solved::{Motion, length};
 use super::trajectory::{Evaluation, Trajectory};
 use crate::error::Error;
+use crate::input::torque::rotors;
 use crate::simd::grid::GROUP;
 use crate::simd::halt::{GOING, Halt, going};
 use crate::simd::outputs::Outputs;
@@ -128,13 +129,14 @@ impl<'a> Batch<'a> {
         Ok(())
     }
 
-    /// The angular momenta R I ω from attitudes and rates.
+    /// The angular momenta R (Iω + h), with that of rotors, from attitudes and rates.
     fn momenta_of_samples(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         let mut attitudes = vec![[0.0; 4]; times.len()];
         self.about_principal_axes(times, &mut attitudes, out)?;
         let moments = self.motion.scene.body().moments();
+        let rotors = rotors(self.motion.scene.asked_torques());
         for (momentum, attitude) in out.iter_mut().zip(attitudes) {
-            let about_axes = Vector3::from_fn(|i, _| moments[i] * momentum[i]);
+            let about_axes = rotors + Vector3::from_fn(|i, _| moments[i] * momentum[i]);
             *momentum = (UnitQuaternion::new_unchecked(attitude.into()) * about_axes).into();
         }
         Ok(())

@@ -40,6 +40,9 @@ pub(crate) struct GradientPlan {
 pub(crate) struct IntegrationPlan {
     pub(crate) steps: usize,
     pub(crate) bodies: usize,
+    /// The number of torques beside the gravity gradient.
+    #[serde(default)]
+    pub(crate) torques: usize,
     /// The error bound without the interpolation of tables, where it is less than half of the whole and the whole exceeds the tolerance \[rad\].
     #[serde(default)]
     pub(crate) uninterpolated: Option<f64>,
@@ -287,9 +290,14 @@ impl fmt::Display for Plan {
             0 => writeln!(f, "harmonics     -")?,
             harmonics => writeln!(f, "harmonics     {harmonics}")?,
         }
-        if let Some(IntegrationPlan { steps, bodies, .. }) = self.integration {
+        if let Some(IntegrationPlan { steps, bodies, torques, .. }) = self.integration {
             let plural = if bodies == 1 { "body" } else { "bodies" };
-            writeln!(f, "steps         {steps} over the span, under {bodies} disturbing {plural}")?;
+            write!(f, "steps         {steps} over the span, under {bodies} disturbing {plural}")?;
+            match torques {
+                0 => writeln!(f)?,
+                1 => writeln!(f, " and 1 other torque")?,
+                torques => writeln!(f, " and {torques} other torques")?,
+            }
         }
         if let Some(twice) = self.resonance {
             writeln!(f, "resonance     {} rotations an orbit", in_words(twice))?;

@@ -28,6 +28,11 @@
 //! # times = [0.0, 60.0]            # eight at least
 //! # positions = [[…], […]]         # from the rotating body, inertial components
 //! # gm = 4.0e14                    # G × mass of the disturbing body
+//! # [[torque]]                     # once for each torque beside the gravity gradient: constant, damping (a matrix), rotor or polynomial
+//! # polynomial = ["0", "-2e-3*b3", "2e-3*b2"]   # in unit vectors to sources (b1, b2, b3) and rates (w1, w2, w3), body components
+//! # [[torque.source]]
+//! # name = "b"                     # with direction = [0, 0, 1], inertial, or [torque.source.orbit] as above
+//! # power = 3                      # with an orbit: the factor (reference_distance/r)^power
 //! ```
 //!
 //! Any other key is an error. Numbers are written so that they are read back to the same bits.

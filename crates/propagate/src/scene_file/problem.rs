@@ -23,6 +23,11 @@ impl Refusal {
         Self { key: key.to_owned(), problem: problem.to_owned(), value: None, bound: Some(bound.into()) }
     }
 
+    /// The same under a key of another table.
+    pub(super) fn under(self, table: &str) -> Self {
+        Self { key: format!("{table}.{}", self.key), ..self }
+    }
+
     pub(super) fn missing(key: &str) -> Self {
         Self::new(key, "is missing, and a scene must have it", "present")
     }
@@ -36,6 +41,7 @@ impl Refusal {
             | Error::TooFew { argument, .. } => &format!("orbit.{argument}"),
             Error::OrbitalFrame { argument: "orbit", .. } => "orbit",
             Error::OrbitalFrame { argument, .. } => &format!("state.{argument}"),
+            Error::Torque { .. } | Error::Series(_) => "torque",
             Error::Averaging { .. } => "averaging",
             Error::Level { .. } => "level",
             Error::Moment { .. } | Error::MomentsTriangle { .. } | Error::MomentsRatio { .. } => "body.moments",

@@ -3,10 +3,13 @@
 use nalgebra::Vector3;
 
 use super::problem::Refusal;
-use super::tables::{BodyTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable, StateTable};
+use super::tables::{
+    BodyTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable, SourceTable, StateTable, TorqueTable,
+};
 use crate::input::body::Body;
 use crate::input::scene::Scene;
 use crate::input::state::State;
+use crate::input::torque::{SourcePath, Torque, TorqueSource};
 use crate::observed::periods::ObservedPeriods;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
@@ -44,7 +47,8 @@ impl SceneTable {
             .method(self.method.unwrap_or_default())
             .averaging(self.averaging.unwrap_or_default())
             .level(self.level.unwrap_or_default());
-        let scene = scene.disturbing(bodies);
+        let torques = self.torque.into_iter().map(TorqueTable::torque).collect::<Result<Vec<_>, _>>()?;
+        let scene = scene.disturbing(bodies).torques(torques);
         scene.validate()?;
         Ok(scene)
     }
@@ -79,6 +83,43 @@ impl StateTable {
         };
         let relative = self.relative.unwrap_or(true);
         Ok(Scene::from_orbital(body, bodies.to_vec(), &frame, attitude, self.angular_velocity.into(), relative, epoch)?)
+    }
+}
+
+impl TorqueTable {
+    fn torque(self) -> Result<Torque, Refusal> {
+        let no_source = self.source.is_empty();
+        Ok(match (self.constant, self.damping, self.rotor, self.polynomial) {
+            (Some(torque), None, None, None) if no_source => Torque::constant(torque)?,
+            (None, Some(matrix), None, None) if no_source => Torque::damping(matrix)?,
+            (None, None, Some(momentum), None) if no_source => Torque::rotor(momentum)?,
+            (None, None, None, Some(texts)) => {
+                let sources = self.source.into_iter().map(SourceTable::source).collect::<Result<Vec<_>, _>>()?;
+                Torque::polynomial(texts.each_ref().map(String::as_str), sources)?
+            }
+            _ => {
+                let bound = "one of constant, damping, rotor, and polynomial with its sources";
+                return Err(Refusal::new("torque", &format!("must have {bound}"), bound));
+            }
+        })
+    }
+}
+
+impl SourceTable {
+    fn source(self) -> Result<TorqueSource, Refusal> {
+        let path = match (self.direction, self.orbit) {
+            (Some(direction), None) => SourcePath::Direction(direction),
+            (None, Some(table)) => match table.body().map_err(|refusal| refusal.under("torque.source"))? {
+                DisturbingBody::Orbit(orbit) => SourcePath::Orbit(orbit),
+                DisturbingBody::Tabulated(table) => SourcePath::Tabulated(table),
+            },
+            _ => {
+                let bound = "a direction or an orbit";
+                return Err(Refusal::new("torque.source", &format!("must have {bound}"), bound));
+            }
+        };
+        let source = TorqueSource::new(&self.name, path);
+        Ok(source.falling(self.power.unwrap_or(0.0), self.reference_distance.unwrap_or(1.0)))
     }
 }
 

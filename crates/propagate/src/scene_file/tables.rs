@@ -40,6 +40,39 @@ pub(super) struct SceneTable {
     pub(super) periods: Option<PeriodsTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) orbit: Option<OrbitTables>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) torque: Vec<TorqueTable>,
+}
+
+/// `[[torque]]`: one of constant, damping, rotor and polynomial.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TorqueTable {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) constant: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) damping: Option<[[f64; 3]; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) rotor: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) polynomial: Option<[String; 3]>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) source: Vec<SourceTable>,
+}
+
+/// `[[torque.source]]`: of a polynomial, with a direction or an orbit.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SourceTable {
+    pub(super) name: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) power: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) reference_distance: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) direction: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) orbit: Option<OrbitTable>,
 }
 
 /// `[body]`: one of moments, named and inertia.

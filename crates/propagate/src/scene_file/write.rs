@@ -1,11 +1,13 @@
 //! From a scene to the tables of a file.
 
-use super::tables::{BodyTable, OrbitTable, OrbitTables, SceneTable, StateTable};
+use super::tables::{BodyTable, OrbitTable, OrbitTables, SceneTable, SourceTable, StateTable, TorqueTable};
 use crate::input::body::Body;
 use crate::input::options::{Averaging, Level};
 use crate::input::scene::Scene;
+use crate::input::torque::{SourcePath, Torque, TorqueSource};
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
+use crate::orbit::table::TabulatedOrbit;
 
 impl SceneTable {
     /// The tables of a scene. Options that only a scene with a disturbing body needs are left out of the others.
@@ -36,6 +38,42 @@ impl SceneTable {
                 [body] => Some(OrbitTables::One(Box::new(OrbitTable::of(body)))),
                 bodies => Some(OrbitTables::Several(bodies.iter().map(OrbitTable::of).collect())),
             },
+            torque: scene.asked_torques().iter().map(TorqueTable::of).collect(),
+        }
+    }
+}
+
+impl TorqueTable {
+    fn of(torque: &Torque) -> Self {
+        let none = Self::default();
+        match torque {
+            Torque::Constant(torque) => Self { constant: Some(*torque), ..none },
+            Torque::Damping(matrix) => Self { damping: Some(*matrix), ..none },
+            Torque::Rotor(momentum) => Self { rotor: Some(*momentum), ..none },
+            Torque::Polynomial(torque) => Self {
+                polynomial: Some(torque.texts().clone()),
+                source: torque.sources().iter().map(SourceTable::of).collect(),
+                ..none
+            },
+        }
+    }
+}
+
+impl SourceTable {
+    fn of(source: &TorqueSource) -> Self {
+        let (power, distance) = source.distance_power();
+        let (direction, orbit) = match source.path() {
+            SourcePath::Direction(direction) => (Some(*direction), None),
+            SourcePath::Orbit(orbit) => (None, Some(OrbitTable::of_orbit(orbit))),
+            SourcePath::Tabulated(table) => (None, Some(OrbitTable::of_table(table))),
+        };
+        let falls = power != 0.0;
+        Self {
+            name: source.name().to_owned(),
+            power: falls.then_some(power),
+            reference_distance: falls.then_some(distance),
+            direction,
+            orbit,
         }
     }
 }
@@ -56,12 +94,16 @@ impl OrbitTable {
     fn of(body: &DisturbingBody) -> Self {
         match body {
             DisturbingBody::Orbit(orbit) => Self::of_orbit(orbit),
-            DisturbingBody::Tabulated(table) => Self {
-                times: Some(table.times().to_vec()),
-                positions: Some(table.positions().to_vec()),
-                gm: Some(table.gm()),
-                ..Self::default()
-            },
+            DisturbingBody::Tabulated(table) => Self::of_table(table),
+        }
+    }
+
+    fn of_table(table: &TabulatedOrbit) -> Self {
+        Self {
+            times: Some(table.times().to_vec()),
+            positions: Some(table.positions().to_vec()),
+            gm: Some(table.gm()),
+            ..Self::default()
         }
     }
 

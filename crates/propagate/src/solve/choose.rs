@@ -39,6 +39,7 @@ impl Scene {
 /// As [`Scene::solve_until`].
 pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
     match (scene.asked_method(), beyond_theory(&scene)) {
+        (Method::Libration, Some(reason)) if !scene.asked_torques().is_empty() => Err(Error::NoLibration { reason }),
         (Method::Libration, _) => libration::motion(scene, tables, stop),
         (Method::Integrated, _) => integrated::motion(scene, tables, String::new(), stop),
         (Method::Auto, Some(reason)) => integrated::motion(scene, tables, format!("theory: {reason}"), stop),
@@ -82,6 +83,7 @@ fn is_sphere(scene: &Scene) -> bool {
 /// Why no theory covers the scene, or `None`.
 fn beyond_theory(scene: &Scene) -> Option<String> {
     match scene.asked_disturbing() {
+        _ if !scene.asked_torques().is_empty() => Some("a torque beside the gravity gradient is integrated".to_owned()),
         _ if is_sphere(scene) => None,
         bodies if bodies.iter().any(|body| matches!(body, DisturbingBody::Tabulated(_))) => {
             Some("a table of positions is integrated".to_owned())

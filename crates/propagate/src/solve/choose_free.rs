@@ -32,6 +32,9 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, _: &AtomicBool) -> Res
     if bodies > 0 && !(a == b && b == c) {
         return Err(Error::NotBuilt { argument: "orbit", value: format!("{bodies} disturbing") });
     }
+    if let Some(torque) = scene.asked_torques().first() {
+        return Err(Error::NotBuilt { argument: "torques", value: torque.kind().to_owned() });
+    }
     let polhode = Polhode::new(scene.body(), scene.state());
     free::motion(scene, polhode.as_ref(), Preparation::new(tables))
 }

@@ -7,6 +7,7 @@ use super::free::{self, Preparation};
 use crate::error::Error;
 use crate::input::options::Method;
 use crate::input::scene::Scene;
+use crate::input::torque::rotors;
 use crate::integration::integrated::{Integrated, verification_cost};
 use crate::motion::plan::Plan;
 use crate::motion::solved::Motion;
@@ -35,5 +36,6 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, reason: String, stop: 
     if let Some(order) = scene.asked_order() {
         plan.skipped.push(format!("order {order}, which was asked for: it is one of the series"));
     }
-    Ok(Motion { scene, plan, trajectory: Trajectory::Forced(Arc::new(motion)), ..free })
+    let angular_momentum = free.angular_momentum + scene.state().attitude * rotors(scene.asked_torques());
+    Ok(Motion { scene, plan, angular_momentum, trajectory: Trajectory::Forced(Arc::new(motion)), ..free })
 }

@@ -210,6 +210,33 @@ class TabulatedOrbit:
     def __deepcopy__(self, _memo: Any) -> TabulatedOrbit: ...
 
 @final
+class Torque:
+    """A torque beside the gravity gradient, in body axes. It is made by one of the class methods below. A scene with torques is integrated: it needs a span."""
+
+    @classmethod
+    def constant(cls, torque: ArrayLike) -> Torque:
+        """A constant torque."""
+    @classmethod
+    def damping(cls, damping: ArrayLike) -> Torque:
+        """The torque −Dω, with the angular velocity relative to inertial space."""
+    @classmethod
+    def rotor(cls, momentum: ArrayLike) -> Torque:
+        """Rotors with a constant angular momentum relative to the body: a gyrostat. The torque is −ω × h."""
+    @classmethod
+    def polynomial(
+        cls,
+        texts: Sequence[str],
+        *,
+        sources: dict[str, Orbit | TabulatedOrbit | ArrayLike] | None = None,
+        distance_powers: dict[str, float] | None = None,
+        reference_distances: dict[str, float] | None = None,
+    ) -> Torque:
+        """Three polynomials in directions and rates, times powers of distances."""
+    @property
+    def kind(self) -> Literal["constant", "damping", "rotor", "polynomial"]:
+        """The kind: "constant", "damping", "rotor" or "polynomial"."""
+
+@final
 class Scene:
     """A body, its state at an epoch, and the requested accuracy of the solution."""
 
@@ -227,6 +254,7 @@ class Scene:
         span: ArrayLike | None = None,
         averaging: Literal["auto", "orbit", "spin"] = "auto",
         level: Literal["auto", "full", "second-order", "moving", "paper"] = "auto",
+        torques: Torque | Sequence[Torque] | None = None,
         name: str | None = None,
         source: str | None = None,
         scalar_first: bool = False,
@@ -306,6 +334,9 @@ class Scene:
     @property
     def level(self) -> Literal["auto", "full", "second-order", "moving", "paper"]:
         """The level: "auto", "full", "second-order", "moving" or "paper"."""
+    @property
+    def torques(self) -> tuple[Torque, ...]:
+        """The torques beside the gravity gradient, a tuple."""
     @property
     def name(self) -> str | None:
         """The name, or None."""

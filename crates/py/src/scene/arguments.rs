@@ -102,6 +102,6 @@ pub(super) fn not_an_orbit(value: &Bound<'_, PyAny>) -> PyErr {
 }
 
 /// The name of the type of a value.
-pub(super) fn kind(value: &Bound<'_, PyAny>) -> String {
+pub(crate) fn kind(value: &Bound<'_, PyAny>) -> String {
     value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string())
 }

@@ -1,0 +1,291 @@
+//! Torques beside the gravity gradient: constant, damping, of rotors, and polynomials in directions and rates.
+
+use std::sync::Arc;
+
+use andoyer_series::Polynomial;
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+
+use crate::error::Error;
+use crate::orbit::elements::Orbit;
+use crate::orbit::table::TabulatedOrbit;
+
+/// Largest degree of a polynomial.
+pub(crate) const MOST_DEGREE: u32 = 8;
+
+/// Most variables of one component of a polynomial.
+const MOST_VARIABLES: usize = 8;
+
+/// Largest magnitude of a power of a distance.
+const MOST_POWER: f64 = 100.0;
+
+/// A torque on the body, in body components [moment × rate²]. A scene with one is integrated.
+///
+/// ```
+/// use andoyer_propagate::torques::Torque;
+/// use andoyer_propagate::{Body, Method, Scene, State};
+/// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.1, 1.0])?;
+/// let scene = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).span(0.0, 100.0).tolerance(1e-9);
+/// let damped = scene.torques([Torque::damping([[0.01, 0.0, 0.0], [0.0, 0.01, 0.0], [0.0, 0.0, 0.01]])?]).solve()?;
+/// assert_eq!(damped.plan().method(), Method::Integrated);
+/// assert!(damped.at(100.0)?.angular_velocity.norm() < 0.7);
+/// # Ok::<(), andoyer_propagate::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Torque {
+    /// A constant torque.
+    Constant([f64; 3]),
+    /// −Dω.
+    Damping([[f64; 3]; 3]),
+    /// Rotors with a constant angular momentum h [moment × rate]: the torque −ω × h.
+    Rotor([f64; 3]),
+    /// Three polynomials times powers of distances.
+    Polynomial(Arc<PolynomialTorque>),
+}
+
+/// Three polynomials in the body components of unit vectors to sources and of the angular velocity, times powers of the distances of the sources.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PolynomialTorque {
+    texts: [String; 3],
+    sources: Vec<TorqueSource>,
+    /// The terms of each component: a coefficient, and the exponents of the components of the sources in their sequence and of ω.
+    terms: [Vec<(f64, Vec<u32>)>; 3],
+    /// The rotation from components about the axes of the scene to those of the texts.
+    turn: UnitQuaternion<f64>,
+}
+
+/// A source that a polynomial names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TorqueSource {
+    name: String,
+    path: SourcePath,
+    power: f64,
+    reference_distance: f64,
+}
+
+/// Where a source is.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SourcePath {
+    /// A body on an orbit; the distance is in units of its semi-major axis if that is not given.
+    Orbit(Orbit),
+    /// A body with a table of positions.
+    Tabulated(Arc<TabulatedOrbit>),
+    /// A fixed inertial direction, of any length.
+    Direction([f64; 3]),
+}
+
+impl TorqueSource {
+    /// A source by its name.
+    pub fn new(name: &str, path: SourcePath) -> Self {
+        Self { name: name.to_owned(), path, power: 0.0, reference_distance: 1.0 }
+    }
+
+    /// Multiplies the torque by (r₀/r)^power. r₀ is in the unit of length of the source: of its semi-major axis if one is given, else in semi-major axes; or of its
+    /// table.
+    #[must_use]
+    pub fn falling(self, power: f64, reference_distance: f64) -> Self {
+        Self { power, reference_distance, ..self }
+    }
+
+    /// The name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Where the source is.
+    pub fn path(&self) -> &SourcePath {
+        &self.path
+    }
+
+    /// The power p of (r₀/r)^p, and r₀.
+    pub fn distance_power(&self) -> (f64, f64) {
+        (self.power, self.reference_distance)
+    }
+
+    fn validate(&self) -> Result<(), Error> {
+        let Self { name, path, power, reference_distance } = self;
+        let identifier =
+            name.chars().next().is_some_and(char::is_alphabetic) && name.chars().all(char::is_alphanumeric);
+        if !identifier || name == "w" {
+            return Err(refused("sources", name, "named by letters and digits, a letter first, and not w"));
+        }
+        let direction = matches!(path, SourcePath::Direction(_));
+        if direction && *power != 0.0 {
+            return Err(refused("distance_powers", format!("{name}: {power}"), "absent: a direction has no distance"));
+        }
+        if !(power.is_finite() && power.abs() <= MOST_POWER) {
+            return Err(refused("distance_powers", format!("{name}: {power}"), "finite and at most 100 in magnitude"));
+        }
+        if !(*reference_distance > 0.0 && reference_distance.is_finite()) {
+            return Err(refused("reference_distances", format!("{name}: {reference_distance}"), "positive and finite"));
+        }
+        match path {
+            SourcePath::Direction(vector)
+                if !(vector.iter().all(|x| x.is_finite()) && vector.iter().any(|x| *x != 0.0)) =>
+            {
+                Err(refused("sources", format!("{name}: {vector:?}"), "a finite vector other than 0"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Torque {
+    /// A constant torque in body axes.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for NaN or an infinity.
+    pub fn constant(torque: [f64; 3]) -> Result<Self, Error> {
+        Self::Constant(torque).validated()
+    }
+
+    /// The torque −Dω; D need not be symmetric.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for NaN or an infinity.
+    pub fn damping(matrix: [[f64; 3]; 3]) -> Result<Self, Error> {
+        Self::Damping(matrix).validated()
+    }
+
+    /// Rotors with this angular momentum in body axes: a gyrostat. The angular momentum of a motion includes it.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for NaN or an infinity.
+    pub fn rotor(momentum: [f64; 3]) -> Result<Self, Error> {
+        Self::Rotor(momentum).validated()
+    }
+
+    /// Three polynomials, in variables such as `sun1`, `sun2`, `sun3` for the body components of the unit vector to the source `sun`, and `w1`, `w2`, `w3` for
+    /// those of the angular velocity.
+    ///
+    /// ```
+    /// use andoyer_propagate::torques::{SourcePath, Torque, TorqueSource};
+    /// let field = TorqueSource::new("field", SourcePath::Direction([0.0, 0.0, 1.0]));
+    /// // A dipole along body axis 1 in a uniform field: m × B.
+    /// assert!(Torque::polynomial(["0", "-2e-3*field3", "2e-3*field2"], vec![field]).is_ok());
+    /// assert!(Torque::polynomial(["w1^9", "0", "0"], vec![]).is_err());
+    /// ```
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for a name that is no identifier or stands twice, a power for a direction, a degree above 8, a component with more than eight variables.
+    /// - [`Error::Series`] for a text that is no polynomial in these variables.
+    pub fn polynomial(texts: [&str; 3], sources: Vec<TorqueSource>) -> Result<Self, Error> {
+        for (k, source) in sources.iter().enumerate() {
+            source.validate()?;
+            if sources[..k].iter().any(|other| other.name == source.name) {
+                return Err(refused("sources", &source.name, "different names"));
+            }
+        }
+        let names = sources.iter().map(|source| source.name.as_str()).chain(["w"]);
+        let names: Vec<String> = names.flat_map(|name| (1..=3).map(move |axis| format!("{name}{axis}"))).collect();
+        let [first, second, third] = texts.map(|text| parsed(text, &names));
+        let texts = texts.map(str::to_owned);
+        let turn = UnitQuaternion::identity();
+        Ok(Self::Polynomial(Arc::new(PolynomialTorque { texts, sources, terms: [first?, second?, third?], turn })))
+    }
+
+    /// # Errors
+    /// - [`Error::Torque`] for a number that is not finite.
+    pub(crate) fn validate(&self) -> Result<(), Error> {
+        let finite = |argument: &'static str, numbers: &[f64]| match numbers.iter().find(|x| !x.is_finite()) {
+            Some(value) => Err(refused(argument, value, "finite")),
+            None => Ok(()),
+        };
+        match self {
+            Self::Constant(torque) => finite("constant", torque),
+            Self::Damping(matrix) => finite("damping", matrix.as_flattened()),
+            Self::Rotor(momentum) => finite("rotor", momentum),
+            Self::Polynomial(_) => Ok(()),
+        }
+    }
+
+    fn validated(self) -> Result<Self, Error> {
+        self.validate().map(|()| self)
+    }
+
+    /// The same torque about other axes; `turn` is the rotation from components about them to components about the old ones.
+    pub(crate) fn turned(&self, turn: &UnitQuaternion<f64>) -> Self {
+        let vector = |given: &[f64; 3]| (turn.inverse() * Vector3::from(*given)).into();
+        match self {
+            Self::Constant(torque) => Self::Constant(vector(torque)),
+            Self::Rotor(momentum) => Self::Rotor(vector(momentum)),
+            Self::Damping(rows) => {
+                let matrix = Matrix3::from_fn(|i, k| rows[i][k]);
+                let turn = turn.to_rotation_matrix();
+                let matrix = turn.transpose() * matrix * turn;
+                Self::Damping(std::array::from_fn(|i| std::array::from_fn(|k| matrix[(i, k)])))
+            }
+            Self::Polynomial(torque) => {
+                Self::Polynomial(Arc::new(PolynomialTorque { turn: torque.turn * turn, ..(**torque).clone() }))
+            }
+        }
+    }
+
+    /// Its kind in one word.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Constant(_) => "constant",
+            Self::Damping(_) => "damping",
+            Self::Rotor(_) => "rotor",
+            Self::Polynomial(_) => "polynomial",
+        }
+    }
+}
+
+impl PolynomialTorque {
+    /// The texts of the three components.
+    pub fn texts(&self) -> &[String; 3] {
+        &self.texts
+    }
+
+    /// The sources.
+    pub fn sources(&self) -> &[TorqueSource] {
+        &self.sources
+    }
+
+    pub(crate) fn terms(&self) -> &[Vec<(f64, Vec<u32>)>; 3] {
+        &self.terms
+    }
+
+    pub(crate) fn turn(&self) -> &UnitQuaternion<f64> {
+        &self.turn
+    }
+}
+
+/// The angular momentum of all rotors.
+pub(crate) fn rotors(torques: &[Torque]) -> Vector3<f64> {
+    let momentum = |torque: &Torque| match torque {
+        Torque::Rotor(momentum) => Vector3::from(*momentum),
+        _ => Vector3::zeros(),
+    };
+    torques.iter().map(momentum).sum()
+}
+
+/// The terms of one component, in the variables of these names.
+fn parsed(text: &str, names: &[String]) -> Result<Vec<(f64, Vec<u32>)>, Error> {
+    // The algebra takes a few variables: those that the text has.
+    let words: Vec<&str> = text.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
+    let used: Vec<&str> = names.iter().map(String::as_str).filter(|name| words.contains(name)).collect();
+    if used.len() > MOST_VARIABLES {
+        return Err(refused("texts", text, "at most 8 variables in a component"));
+    }
+    let polynomial = Polynomial::<f64>::parse(text, &used).map_err(Error::Series)?;
+    if let Some(degree) = polynomial.degree().filter(|degree| *degree > MOST_DEGREE) {
+        return Err(refused("texts", format!("degree {degree}"), "of degree 8 or less"));
+    }
+    let terms = polynomial.terms().map(|(monomial, coefficient)| {
+        let mut exponents = vec![0; names.len()];
+        for (slot, name) in used.iter().enumerate() {
+            if let Some(place) = names.iter().position(|other| other == name) {
+                exponents[place] = monomial.exponent(slot);
+            }
+        }
+        (*coefficient, exponents)
+    });
+    Ok(terms.collect())
+}
+
+fn refused(argument: &'static str, value: impl ToString, bound: &str) -> Error {
+    Error::Torque { argument, value: value.to_string(), bound: bound.to_owned() }
+}

@@ -1,0 +1,266 @@
+//! `andoyer.Torque`.
+
+use andoyer_propagate::torques::{SourcePath, Torque as Inner, TorqueSource};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple, PyType};
+
+use crate::array::{fixed, is_matrix, matrix, number};
+use crate::error::{self, InternalError};
+use crate::orbit::Orbit;
+use crate::scene::arguments::kind;
+use crate::tabulated::TabulatedOrbit;
+
+/// A torque beside the gravity gradient, in body axes. It is made by one of the class methods below. A scene with torques is integrated: it needs a span.
+///
+/// Torques are in moment × rate². `Motion.angular_momentum` and `Motion.andoyer` include the angular momentum of rotors.
+///
+/// Examples
+/// --------
+/// >>> body = Body([1, 1.5, 2])
+/// >>> scene = Scene(body, [0, 0, 0, 1], [0, 0.1, 1], span=(0, 100), tolerance=1e-9, torques=[Torque.damping(0.01), Torque.rotor([0, 0, 0.5])])
+/// >>> motion = scene.solve()
+/// >>> motion.plan.method, bool(motion.angular_velocity(100)[2] < 0.7)
+/// ('integrated', True)
+#[pyclass(frozen, eq, module = "andoyer")]
+#[derive(PartialEq)]
+pub(crate) struct Torque(pub(crate) Inner);
+
+#[pymethods]
+impl Torque {
+    /// A constant torque.
+    ///
+    /// Parameters
+    /// ----------
+    /// torque : array_like, shape (3,)
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A value that is not finite; an array of another shape.
+    #[classmethod]
+    fn constant(_class: &Bound<'_, PyType>, torque: &Bound<'_, PyAny>) -> PyResult<Self> {
+        made(Inner::constant(fixed("torque", torque)?))
+    }
+
+    /// The torque −Dω, with the angular velocity relative to inertial space.
+    ///
+    /// Parameters
+    /// ----------
+    /// damping : float, or array_like of shape (3,) or (3, 3)
+    ///     D, in moment × rate: a number times the unit matrix, the diagonal, or the matrix, which need not be symmetric.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A value that is not finite; an array of another shape.
+    #[classmethod]
+    fn damping(_class: &Bound<'_, PyType>, damping: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let diagonal = |d: [f64; 3]| std::array::from_fn(|i| std::array::from_fn(|k| if i == k { d[i] } else { 0.0 }));
+        made(Inner::damping(if is_matrix(damping) {
+            matrix("damping", damping)?
+        } else if damping.len().is_ok() {
+            diagonal(fixed("damping", damping)?)
+        } else {
+            diagonal([number("damping", damping)?; 3])
+        }))
+    }
+
+    /// Rotors with a constant angular momentum relative to the body: a gyrostat. The torque is −ω × h.
+    ///
+    /// Parameters
+    /// ----------
+    /// momentum : array_like, shape (3,)
+    ///     h, in moment × rate.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A value that is not finite; an array of another shape.
+    #[classmethod]
+    fn rotor(_class: &Bound<'_, PyType>, momentum: &Bound<'_, PyAny>) -> PyResult<Self> {
+        made(Inner::rotor(fixed("momentum", momentum)?))
+    }
+
+    /// Three polynomials in directions and rates, times powers of distances.
+    ///
+    /// Parameters
+    /// ----------
+    /// texts : sequence of three str
+    ///     Polynomials of degree 8 or less, of at most eight variables each: ``name1``, ``name2``, ``name3`` are the body components of the unit vector to the source
+    ///     ``name``, and ``w1``, ``w2``, ``w3`` those of the angular velocity.
+    /// sources : dict of str to Orbit, TabulatedOrbit or array_like of shape (3,), optional
+    ///     The sources by their names; an array is a fixed inertial direction.
+    /// distance_powers : dict of str to float, optional
+    ///     The torque is multiplied by (r0/r)^p for each source with a power p.
+    /// reference_distances : dict of str to float, optional
+    ///     r0, by default 1: in the unit of length of the source; for an `Orbit` without `semi_major_axis` in semi-major axes.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A text that is no polynomial in these variables, a degree above 8, a name that is not made of letters and digits, a power for a direction or for a name that is no source.
+    ///
+    /// Examples
+    /// --------
+    /// A dipole along body axis 1 in the field of a dipole far away, which falls with the third power of the distance:
+    ///
+    /// >>> planet = Orbit(1e-3, 0.1)
+    /// >>> Torque.polynomial(["0", "-2e-3*b3", "2e-3*b2"], sources={"b": planet}, distance_powers={"b": 3}).kind
+    /// 'polynomial'
+    #[classmethod]
+    #[pyo3(signature = (texts, *, sources=None, distance_powers=None, reference_distances=None))]
+    fn polynomial(
+        class: &Bound<'_, PyType>,
+        texts: &Bound<'_, PyAny>,
+        sources: Option<Bound<'_, PyDict>>,
+        distance_powers: Option<Bound<'_, PyDict>>,
+        reference_distances: Option<Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let py = class.py();
+        let [sources, powers, distances] =
+            [sources, distance_powers, reference_distances].map(|given| given.unwrap_or_else(|| PyDict::new(py)));
+        Self::_polynomial(class, texts, &sources, &powers, &distances)
+    }
+
+    #[classmethod]
+    fn _polynomial(
+        _class: &Bound<'_, PyType>,
+        texts: &Bound<'_, PyAny>,
+        sources: &Bound<'_, PyDict>,
+        distance_powers: &Bound<'_, PyDict>,
+        reference_distances: &Bound<'_, PyDict>,
+    ) -> PyResult<Self> {
+        let three = || PyTypeError::new_err("texts must be three texts, one for each body axis");
+        let texts: Vec<String> = texts.extract().map_err(|_| three())?;
+        let [first, second, third] = &texts[..] else { return Err(three()) };
+        for (argument, given) in [("distance_powers", distance_powers), ("reference_distances", reference_distances)] {
+            for name in given.keys() {
+                if !sources.contains(&name)? {
+                    let said = format!("{argument} has {}, which is no source", name.repr()?);
+                    return Err(PyTypeError::new_err(said));
+                }
+            }
+        }
+        let source = |(name, path): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<TorqueSource> {
+            let value = |given: &Bound<'_, PyDict>, argument: &str, default: f64| match given.get_item(&name)? {
+                Some(value) => number(argument, &value),
+                None => Ok(default),
+            };
+            let power = value(distance_powers, "distance_powers", 0.0)?;
+            let distance = value(reference_distances, "reference_distances", 1.0)?;
+            let name: String = name.extract()?;
+            Ok(TorqueSource::new(&name, source_path(&path)?).falling(power, distance))
+        };
+        let sources = sources.iter().map(source).collect::<PyResult<Vec<_>>>()?;
+        made(Inner::polynomial([first, second, third], sources))
+    }
+
+    /// The kind: "constant", "damping", "rotor" or "polynomial".
+    #[getter]
+    fn kind(&self) -> &'static str {
+        self.0.kind()
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let Inner::Polynomial(torque) = &self.0 else {
+            let (method, arguments) = self.parts(py)?;
+            return Ok(format!("Torque.{method}({})", arguments.get_item(0)?.repr()?));
+        };
+        let mut keywords = String::new();
+        let [_, sources, powers, distances] = self.of_polynomial(py)?;
+        for (key, given) in [("sources", sources), ("distance_powers", powers), ("reference_distances", distances)] {
+            if given.len()? > 0 {
+                keywords += &format!(", {key}={}", given.repr()?);
+            }
+        }
+        Ok(format!("Torque.polynomial({:?}{keywords})", torque.texts()))
+    }
+
+    fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
+        PyTuple::new(py, [self.kind().to_owned(), self.__repr__(py)?])?.hash()
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (method, arguments) = slf.get().parts(slf.py())?;
+        Ok((slf.get_type().getattr(method)?, arguments))
+    }
+}
+
+impl Torque {
+    /// The class method that makes this torque, and its arguments.
+    fn parts<'py>(&self, py: Python<'py>) -> PyResult<(&'static str, Bound<'py, PyTuple>)> {
+        Ok(match &self.0 {
+            Inner::Constant(torque) => ("constant", PyTuple::new(py, [torque.to_vec()])?),
+            Inner::Rotor(momentum) => ("rotor", PyTuple::new(py, [momentum.to_vec()])?),
+            Inner::Damping(rows) => ("damping", PyTuple::new(py, [rows.map(|row| row.to_vec()).to_vec()])?),
+            Inner::Polynomial(_) => ("_polynomial", PyTuple::new(py, self.of_polynomial(py)?)?),
+            _ => return Err(InternalError::new_err("a fault of this package, please report it: an unknown torque")),
+        })
+    }
+
+    /// Texts, sources, powers and distances of a polynomial.
+    fn of_polynomial<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyAny>; 4]> {
+        let [sources, powers, distances] = [(); 3].map(|()| PyDict::new(py));
+        let Inner::Polynomial(torque) = &self.0 else {
+            return Ok([PyTuple::empty(py).into_any(), sources.into_any(), powers.into_any(), distances.into_any()]);
+        };
+        for source in torque.sources() {
+            let (name, (power, distance)) = (source.name(), source.distance_power());
+            match source.path() {
+                SourcePath::Orbit(orbit) => sources.set_item(name, Bound::new(py, Orbit(*orbit))?)?,
+                SourcePath::Tabulated(table) => {
+                    sources.set_item(name, Bound::new(py, TabulatedOrbit(table.clone()))?)?
+                }
+                SourcePath::Direction(vector) => sources.set_item(name, vector.to_vec())?,
+                _ => {
+                    return Err(InternalError::new_err("a fault of this package, please report it: an unknown source"));
+                }
+            }
+            if power != 0.0 {
+                powers.set_item(name, power)?;
+                distances.set_item(name, distance)?;
+            }
+        }
+        let texts = PyTuple::new(py, torque.texts())?;
+        Ok([texts.into_any(), sources.into_any(), powers.into_any(), distances.into_any()])
+    }
+}
+
+fn made(torque: Result<Inner, andoyer_propagate::Error>) -> PyResult<Torque> {
+    torque.map(Torque).map_err(error::propagation)
+}
+
+fn source_path(value: &Bound<'_, PyAny>) -> PyResult<SourcePath> {
+    if let Ok(orbit) = value.cast::<Orbit>() {
+        return Ok(SourcePath::Orbit(orbit.get().0));
+    }
+    if let Ok(table) = value.cast::<TabulatedOrbit>() {
+        return Ok(SourcePath::Tabulated(table.get().0.clone()));
+    }
+    Ok(SourcePath::Direction(fixed("sources", value)?))
+}
+
+/// One torque, or a sequence of them.
+pub(crate) fn torques(value: &Bound<'_, PyAny>) -> PyResult<Vec<Inner>> {
+    let one = |value: &Bound<'_, PyAny>| -> Option<Inner> {
+        value.cast::<Torque>().ok().map(|torque| torque.get().0.clone())
+    };
+    let refused = |value: &Bound<'_, PyAny>| {
+        let said = format!("torques must be an andoyer.Torque or a sequence of them: got {}", kind(value));
+        PyTypeError::new_err(said)
+    };
+    if let Some(torque) = one(value) {
+        return Ok(vec![torque]);
+    }
+    let members = value.try_iter().map_err(|_| refused(value))?;
+    members.map(|member| member.and_then(|member| one(&member).ok_or_else(|| refused(&member)))).collect()
+}
