@@ -99,7 +99,7 @@ def by_task(rows):
         for size in sizes:
             found = [cells.get((size, engine)) for engine in engines]
             counted = max(int(row["elements"]) for row in found if row)
-            lines.append([size, f"{counted:,}" if counted > 1 else "", *(duration(row["element_ns"]) if row else "" for row in found)])
+            lines.append([size, f"{counted:,}" if counted > 1 else "–", *(duration(row["element_ns"]) if row else "–" for row in found)])
         # A task that was measured separately states its date and machine.
         apart = "" if machine(here) == machine(rows) else f"{machine(here)}\n\n"
         parts.append(f"### {task}\n\n{apart}" + table([task, "elements", *(engine or "time" for engine in engines)], lines))
