@@ -37,14 +37,16 @@ scenes = {
     "with dipole and damper": [dipole, damper],
     "with dipole, damper and wheel": [dipole, damper, wheel],
 }
-motions = {name: andoyer.Scene(body, *start, orbit=earth, torques=torques, span=span, tolerance=1e-6, method="integrated").solve() for name, torques in scenes.items()}
+motions = {
+    name: andoyer.Scene(body, *start, orbit=earth, torques=torques, span=span, tolerance=1e-6, method="integrated").solve() for name, torques in scenes.items()
+}
 print(motions["with dipole, damper and wheel"].plan)
 
 # %%
 # The damper slows the rotation. The wheel is stiff in its axis: the satellite ends with the axis of the wheel near its angular momentum.
 
 times = np.linspace(*span, 600)
-figure, (rates, angles) = plt.subplots(2, 1, sharex=True, figsize=(7, 6))
+figure, (rates, angles) = plt.subplots(2, 1, sharex=True, figsize=(7, 6), layout="constrained")
 for name, motion in motions.items():
     rates.plot(times / 3600, 1e3 * np.linalg.norm(motion.angular_velocity(times), axis=1), label=name)
     momentum = motion.angular_momentum(times)
@@ -52,7 +54,7 @@ for name, motion in motions.items():
     cosine = np.sum(momentum * axis, axis=1) / np.linalg.norm(momentum, axis=1)
     angles.plot(times / 3600, np.degrees(np.arccos(np.clip(cosine, -1, 1))))
 rates.set_ylabel("rate [mrad/s]")
-rates.legend()
-angles.set_ylabel("axis 2 from the angular momentum [deg]")
+rates.legend(loc="upper right", fontsize="small")
+angles.set_ylabel("axis 2 to momentum [deg]")
 angles.set_xlabel("time [h]")
 plt.show()

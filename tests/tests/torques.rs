@@ -129,8 +129,7 @@ fn the_gravity_gradient_as_a_polynomial_is_the_gravity_gradient() -> Result<(), 
     }
     let orbit = ellipse.semi_major_axis(2.0)?;
     let knots: Vec<f64> = (0..=400).map(|k| -1.0 + 52.0 * f64::from(k) / 400.0).collect();
-    let positions =
-        knots.iter().map(|time| orbit.position(*time).map(Into::into)).collect::<Result<Vec<[f64; 3]>, _>>()?;
+    let positions = knots.iter().map(|time| orbit.position(*time)).collect::<Result<Vec<[f64; 3]>, _>>()?;
     let gm = orbit.strength() * 8.0;
     let table = TabulatedOrbit::new(knots, positions, gm)?;
     let polynomial = gravity_gradient(MOMENTS, gm, SourcePath::Tabulated(table.clone().into()), 1.0)?;

@@ -10,7 +10,7 @@ SCRIPTS = sorted((REPOSITORY / "examples/gallery").glob("*.py"), key=lambda path
 PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
 
 
-def test_there_are_the_seventeen_of_them():
+def test_there_are_the_eighteen_of_them():
     assert [path.stem.split("_", 2)[2] for path in SCRIPTS] == [
         "earth_wobble",
         "eros_separatrix",
@@ -29,6 +29,7 @@ def test_there_are_the_seventeen_of_them():
         "cassini",
         "methods",
         "locked",
+        "dead_satellite",
     ]
 
 

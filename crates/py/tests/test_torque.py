@@ -6,6 +6,7 @@ import pickle
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
 import andoyer
 from andoyer import Body, Orbit, Scene, TabulatedOrbit, Torque
@@ -126,6 +127,7 @@ def test_angular_momentum_includes_rotors():
     assert abs(motion.andoyer(20.0)[4] - np.linalg.norm(first)) <= 1e-12
 
 
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 def test_table_as_a_source_and_derivatives():
     motion = scene(Torque.polynomial(["0.01*s2", "0", "0.02*s1*s3"], sources={"s": TABLE})).solve()
     assert not motion.verify().refuted
@@ -135,8 +137,8 @@ def test_table_as_a_source_and_derivatives():
         Scene(Body(MOMENTS), ATTITUDE, [0.1, 0.2, 1.0 + sign * step], span=(0, 20), tolerance=1e-11, torques=motion.scene.torques).solve().attitude(10.0)
         for sign in (1, -1)
     ]
-    difference = (moved[0] - moved[1]) / (2 * step)
-    assert np.abs(partials.attitude[..., :, 5] - difference).max() <= 1e-6 * np.abs(difference).max()
+    difference = (Rotation.from_quat(moved[1]).inv() * Rotation.from_quat(moved[0])).as_rotvec() / (2 * step)
+    assert np.abs(partials.attitude[:, 5] - difference).max() <= 1e-6 * np.abs(difference).max()
 
 
 @pytest.mark.parametrize(

@@ -72,9 +72,9 @@ impl Table {
     /// Newton's divided differences, expanded about the time. Returns a radius of convergence: that of a straight path, and less of a bent one.
     pub(super) fn series(&self, time: ((f64, f64), bool), order: usize, out: &mut Series) -> f64 {
         let (position, factor, nodes) = self.expanded(time, order);
-        for k in 0..order {
+        for (k, row) in out.iter_mut().enumerate().take(order) {
             let [x, y, z] = position.each_ref().map(|p| product(p, &factor, k));
-            out[k] = [x, y, z, 0.0];
+            *row = [x, y, z, 0.0];
         }
         let size = |k: usize| position.iter().map(|p| p[k] * p[k]).sum::<f64>();
         let nearest = |k: usize| (size(0) / size(k)).powf(0.5 / k as f64);

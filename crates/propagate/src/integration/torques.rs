@@ -25,7 +25,7 @@ pub(super) struct Torques {
 /// How the series of one polynomial torque are computed.
 #[derive(Clone, Debug)]
 struct Recipe {
-    sources: Vec<Source>,
+    sources: Vec<SourceSeries>,
     /// From components about the axes of the scene to those of the polynomials.
     turn: Matrix3<f64>,
     /// From the polynomials to angular accelerations about the axes of the scene.
@@ -39,7 +39,7 @@ struct Recipe {
 
 /// A source: the unit vector to it, and (r₀/r)^p.
 #[derive(Clone, Debug)]
-struct Source {
+struct SourceSeries {
     direction: Result<Disturber, [f64; 3]>,
     fall: Option<Disturber>,
 }
@@ -181,7 +181,7 @@ impl Recipe {
                 SourcePath::Direction(_) => 1.0,
             };
             let fall = (power != 0.0).then(|| path((reference / size).powf(power), -power).ok()).flatten();
-            Source { direction: path(1.0, -1.0), fall }
+            SourceSeries { direction: path(1.0, -1.0), fall }
         });
         let sources: Vec<_> = sources.collect();
         let turn = torque.turn().to_rotation_matrix().into_inner();
