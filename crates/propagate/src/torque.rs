@@ -7,7 +7,8 @@
 //! ⟨D⟩ = ΓΔ (a/r)³ (k_r² − ⅓)     averaged over ℓ′ and y′
 //! ```
 //!
-//! About the axis k of the angular momentum, D is Σ T_m c_m of the tensor Θ = (a/r)³ r̂r̂ with the contractions c₀ = Θ33 − tr Θ/3, c₁ = Θ13 − iΘ23 and
+//! In the frame of the angular momentum, D is Γ times the real part of a sum of T_m c_m for m = 0, 1, 2, with the components T_m of the inertia tensor and the
+//! contractions c_m of the tensor Θ = (a/r)³ r̂r̂: c₀ = Θ33 − tr Θ/3, c₁ = Θ13 − iΘ23 and
 //! c₂ = Θ11 − Θ22 − 2iΘ12. These are here; Θ is in `orbit/tensor.rs`, the factors T_m of the body in `gravity_gradient/inertia.rs`. The integration multiplies
 //! series in time of √(2Γ) (a/r)^(3/2) r̂ (`integration/expansion.rs`).
 //!
@@ -25,12 +26,12 @@ pub(crate) fn strength(attraction: f64) -> f64 {
     1.5 * attraction
 }
 
-/// Γ of an orbit in the unit of time in which its mean motion is `mean_motion`: its square may be 0 or infinite in the user's unit.
+/// Γ of an orbit in the unit of time in which its mean motion is `mean_motion`: in the user's unit the square of the mean motion may under- or overflow.
 pub(crate) fn strength_for(orbit: &Orbit, mean_motion: f64) -> f64 {
     strength(mean_motion * mean_motion * orbit.disturbing_fraction())
 }
 
-/// The contraction of Θ for m = 1, −c₁, or m = 2, −i c₂, and its derivatives when the frame turns about its axes 1 and 2.
+/// The contraction of Θ for m = 1, −c₁, or m = 2, −i c₂, and its derivatives. With these factors the sums of terms have real coefficients. The derivatives are those when the frame turns about its axes 1 and 2.
 pub(crate) type Contracted<S> = [ComplexLanes<S>; 3];
 
 /// The contractions for m = 1 or 2.

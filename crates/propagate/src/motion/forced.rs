@@ -22,7 +22,7 @@ pub(crate) trait Forced: Debug + Send + Sync + UnwindSafe + RefUnwindSafe {
     /// What it is, for messages.
     fn name(&self) -> &'static str;
 
-    /// The type itself, for what only its room knows.
+    /// The type itself, so that its room can downcast it.
     fn as_any(&self) -> &dyn Any;
 
     /// Its memory, in bytes.
@@ -31,12 +31,13 @@ pub(crate) trait Forced: Debug + Send + Sync + UnwindSafe + RefUnwindSafe {
     /// Evaluates the times of a run.
     fn fill(&self, arch: Arch, run: Run<'_>) -> Result<(), Halt>;
 
-    /// The ends before and after the epoch; `phases` is the end that the phases of the free motion set.
+    /// The ends before and after the epoch; `phases` is the farthest time at which the phases are accurate.
     fn ends(&self, phases: End) -> [End; 2] {
         [phases; 2]
     }
 
-    /// Writes the angular momenta in inertial components at `times`; `epoch` is in the same scale. Returns false if they follow from attitudes and rates.
+    /// Writes the angular momenta in inertial components at `times`; `epoch` is in the same scale. Returns false, writing nothing, if the caller must
+    /// compute them from attitudes and rates.
     fn angular_momenta(&self, _times: &[f64], _epoch: f64, _out: &mut [[f64; 3]]) -> bool {
         false
     }

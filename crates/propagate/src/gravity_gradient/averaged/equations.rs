@@ -1,4 +1,5 @@
-//! The averaged equations: the derivatives of the invariable frame and of two numbers, for one body on a fixed orbit, for several bodies, and averaged over the orbit.
+//! The averaged equations: the derivatives of the invariable frame, and of the phase integral Ψ (first order) or the drifts of ℓ′ and y′ (second order): for one body
+//! on a fixed orbit, for several bodies, and averaged over the orbit.
 //!
 //! With the unit angular momentum k, κ_o = 3φn Δ/(M η³) and the true anomaly f of one orbit, or with time t and a sum over bodies,
 //!
@@ -47,7 +48,7 @@ pub(crate) struct AveragedTorque {
     /// n in the units of the motion.
     pub(crate) mean_motion: f64,
     pub(crate) axes: [Vector3<f64>; 3],
-    /// dΨ/df on a circle for r̂ across k, ⅔Γ/(n η³).
+    /// ⅔Γ/(n η³): dΨ/df at e = 0 for r̂ ⊥ k.
     pub(crate) phase: f64,
     /// κ_o, the precession of the angular momentum while f advances by 1 rad on a circle \[rad\].
     pub(crate) precession: f64,
@@ -56,7 +57,7 @@ pub(crate) struct AveragedTorque {
 }
 
 impl AveragedTorque {
-    /// The averaged torque of a body; `delta` is Δ/M. With `second` the averaged equations are those of second order.
+    /// The averaged torque of a body; `delta` is Δ/M. `second` is ⟨D⟩ + K2, or `None` for equations of first order.
     pub(crate) fn new(body: &Disturbance<'_>, delta: f64, second: Option<Hamiltonian>) -> Self {
         let (eccentricity, mean_motion) = (body.orbit.eccentricity(), body.mean_motion);
         let eta_cubed = eta(eccentricity).powi(3);
