@@ -43,7 +43,7 @@ motions = {
 print(motions["with dipole, damper and wheel"].plan)
 
 # %%
-# The damper slows the rotation. The wheel is stiff in its axis: the satellite ends with the axis of the wheel near its angular momentum.
+# The damper slows the rotation. With the wheel axis 2 ends within 45 degrees of the angular momentum; without it the two stay nearly perpendicular.
 
 times = np.linspace(*span, 600)
 figure, (rates, angles) = plt.subplots(2, 1, sharex=True, figsize=(7, 6), layout="constrained")

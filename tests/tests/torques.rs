@@ -1,5 +1,6 @@
 //! Torques beside the gravity gradient: closed forms, integrals, the gravity gradient itself as a polynomial, and bad input.
 
+use andoyer_double::DoubleDouble;
 use andoyer_propagate::disturbers::{Orbit, TabulatedOrbit};
 use andoyer_propagate::nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use andoyer_propagate::torques::{SourcePath, Torque, TorqueSource};
@@ -309,5 +310,82 @@ fn a_scene_file_has_every_kind() -> Result<(), Error> {
         let error = file(table).expect_err(table);
         assert!(error.starts_with(begins), "{error}");
     }
+    Ok(())
+}
+
+#[test]
+fn the_bound_holds_the_rounding_of_a_torque_that_spins_a_body_up_from_rest() -> Result<(), Error> {
+    // The angle ½ (c/I) t² is 1e6 rad, and c/I is no double.
+    let (moment, torque, time) = (7.0, 0.3, (2e6 * 7.0 / 0.3_f64).sqrt());
+    let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0; 3])?;
+    let scene = Scene::new(Body::new([moment; 3])?, state).span(0.0, time).tolerance(1e-6);
+    let motion = scene.torques([Torque::constant([0.0, 0.0, torque])?]).solve()?;
+    let exact = |x: f64| DoubleDouble::from(x);
+    let half_angle = exact(0.25) * exact(torque) * exact(time) * exact(time) / exact(moment);
+    let turn = DoubleDouble::PI * exact(2.0);
+    let half_angle = half_angle - turn * exact((half_angle / turn).to_f64().round());
+    let expected = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 2.0 * half_angle.to_f64());
+    let error = motion.at(time)?.attitude.angle_to(&expected);
+    assert!(error > 1e-12 && error <= motion.plan().error_bound(), "{error:e} {:e}", motion.plan().error_bound());
+    // The rate at the end counts in the bound of the rates.
+    let rate = torque / moment * time;
+    assert!(motion.plan().rate_error_bound() >= 1.99 * rate * motion.plan().error_bound());
+    Ok(())
+}
+
+#[test]
+fn derivatives_of_a_body_that_is_spun_up_are_those_of_the_formula() -> Result<(), Error> {
+    // ∂θ/∂ω₀ = t and ∂θ/∂I = −½ (c/I²) t² about the axis of the torque.
+    let (moment, torque, time) = (2.0, 0.5, 200.0);
+    let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0; 3])?;
+    let scene = Scene::new(Body::new([moment, moment, moment])?, state).span(0.0, time).tolerance(1e-9);
+    let partials = scene.torques([Torque::constant([0.0, 0.0, torque])?]).solve()?.partials(time)?;
+    assert!((partials.attitude[2][5] / time - 1.0).abs() <= 1e-7, "{}", partials.attitude[2][5]);
+    let by_moment = -0.5 * torque / (moment * moment) * time * time;
+    assert!((partials.attitude[2][8] / by_moment - 1.0).abs() <= 1e-6, "{} {by_moment}", partials.attitude[2][8]);
+    Ok(())
+}
+
+#[test]
+fn a_polynomial_in_si_units_of_a_distant_sun_and_directions_of_any_length_are_served() -> Result<(), Error> {
+    // The coefficient of the gravity gradient of the Sun on an asteroid, in m and s, with r₀ = 1 m.
+    let orbit = Orbit::new(1.99e-7, 0.3)?.semi_major_axis(1.5e11)?;
+    let moments = [1.0e12, 1.5e12, 2.0e12];
+    let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [1e-5, 2e-5, 2.9e-4])?;
+    let scene = Scene::new(Body::new(moments)?, state).span(0.0, 1e6).tolerance(1e-9);
+    let gm = 1.327e20;
+    let own = scene.clone().orbit(orbit.attraction(gm / 1.5e11_f64.powi(3))?).method(Method::Integrated).solve()?;
+    let polynomial = gravity_gradient(moments, gm, SourcePath::Orbit(orbit), 1.0)?;
+    let other = scene.clone().torques([polynomial]).solve()?;
+    assert!(apart(&own, &other, &[3e5, 1e6])? <= 1e-11);
+    let along = |length: f64| {
+        let source = TorqueSource::new("b", SourcePath::Direction([0.0, 0.6 * length, 0.8 * length]));
+        scene.clone().torques([Torque::polynomial(["1e3*b2", "0", "1e3*b3*b1"], vec![source])?]).solve()
+    };
+    for length in [1e-170, 1e200] {
+        assert!(apart(&along(1.0)?, &along(length)?, &[1e6])? <= 1e-11, "{length:e}");
+    }
+    Ok(())
+}
+
+#[test]
+fn an_odd_polynomial_has_the_sign_of_the_vector_to_the_source() -> Result<(), Error> {
+    // At the pericentre of these elements the source is along inertial axis 1.
+    let source = TorqueSource::new("s", SourcePath::Orbit(Orbit::new(1e-9, 0.0)?));
+    let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0; 3])?;
+    let scene = Scene::new(Body::new([1.0; 3])?, state).span(0.0, 1.0).tolerance(1e-9);
+    let motion = scene.torques([Torque::polynomial(["0", "0", "0.1*s1"], vec![source])?]).solve()?;
+    assert!((motion.at(1.0)?.angular_velocity.z - 0.1).abs() <= 1e-3);
+    Ok(())
+}
+
+#[test]
+fn andoyer_variables_of_a_gyrostat_are_read_back() -> Result<(), Error> {
+    let torques = || -> Result<Vec<Torque>, Error> { Ok(vec![Torque::rotor([0.3, -0.2, 0.5])?]) };
+    let motion = scene(MOMENTS, RATES)?.torques(torques()?).solve()?;
+    let variables = motion.andoyer(0.0)?;
+    let again = Scene::from_andoyer_with(Body::new(MOMENTS)?, variables, 0.0, torques()?)?;
+    assert!((again.state().angular_velocity - Vector3::from(RATES)).norm() <= 1e-13);
+    assert!(again.state().attitude.angle_to(&motion.at(0.0)?.attitude) <= 1e-13);
     Ok(())
 }

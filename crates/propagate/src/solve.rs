@@ -35,7 +35,8 @@ impl Scene {
     /// - [`Error::Separatrix`] where the series is asked for on the separatrix itself.
     /// - [`Error::Resonance`], [`Error::TorqueTooStrong`], [`Error::Unaveraged`] for an orbit whose gravity gradient cannot be averaged, without a span or with
     ///   a method other than [`Method::Auto`](crate::Method::Auto) and [`Method::Integrated`](crate::Method::Integrated).
-    /// - [`Error::NoSpan`] where the motion is integrated and no span is given; [`Error::OnlyIntegrated`] for a table of positions with another method.
+    /// - [`Error::NoSpan`] where the motion is integrated and no span is given; [`Error::OnlyIntegrated`] for a table of positions, a hyperbola or a torque
+    ///   beside the gravity gradient with another method.
     /// - [`Error::TooManySteps`], [`Error::Unpredictable`] where the integration takes too many steps, or nothing is known at its end; [`Error::TableSpan`].
     pub fn solve(&self) -> Result<Motion, Error> {
         self.solve_until(&SeriesTables::default(), &GOING)

@@ -182,7 +182,7 @@ impl Scene {
     /// ----------
     /// body : Body
     /// andoyer : array_like, shape (6,)
-    ///     (λ, μ, ν, Λ, M, N): angles in rad, momenta in the unit of moment × rate; M > 0, −M ≤ Λ ≤ M, −M ≤ N ≤ M. Small inclinations I and J, which Λ and N give by
+    ///     (λ, μ, ν, Λ, M, N): angles in rad, momenta in the unit of moment × rate, with those of rotors among the torques; M > 0, −M ≤ Λ ≤ M, −M ≤ N ≤ M. Small inclinations I and J, which Λ and N give by
     ///     differences from M, are known to 1e-8 rad.
     /// epoch : float, optional
     ///     Time of the state.
@@ -211,7 +211,10 @@ impl Scene {
         let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
         let variables = array::fixed("andoyer", andoyer)?;
         let (time, _) = self::epoch(epoch)?;
-        let scene = andoyer_propagate::Scene::from_andoyer(of_body, variables, time).map_err(error::propagation)?;
+        let given = options.as_ref().map(|options| options.get_item("torques")).transpose()?.flatten();
+        let torques = given.filter(|given| !given.is_none()).map_or(Ok(Vec::new()), |given| torque::torques(&given))?;
+        let scene = andoyer_propagate::Scene::from_andoyer_with(of_body, variables, time, torques);
+        let scene = scene.map_err(error::propagation)?;
         with_options(class, body, (&scene, epoch), options)
     }
 

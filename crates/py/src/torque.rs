@@ -90,7 +90,8 @@ impl Torque {
     ///     Polynomials of degree 8 or less, of at most eight variables each: ``name1``, ``name2``, ``name3`` are the body components of the unit vector to the source
     ///     ``name``, and ``w1``, ``w2``, ``w3`` those of the angular velocity.
     /// sources : dict of str to Orbit, TabulatedOrbit or array_like of shape (3,), optional
-    ///     The sources by their names; an array is a fixed inertial direction.
+    ///     The sources by their names; an array is a fixed inertial direction. The vector of an orbit goes from the body to the source. With the elements of the body
+    ///     about the source (a satellite's own elements) it is the opposite one: change the sign of terms of odd degree in it.
     /// distance_powers : dict of str to float, optional
     ///     The torque is multiplied by (r0/r)^p for each source with a power p.
     /// reference_distances : dict of str to float, optional
@@ -99,7 +100,9 @@ impl Torque {
     /// Raises
     /// ------
     /// InputError
-    ///     A text that is no polynomial in these variables, a degree above 8, a name that is not made of letters and digits, a power for a direction or for a name that is no source.
+    ///     A text that is no polynomial in these variables, a degree above 8, a name that is not made of letters and digits, a power for a direction.
+    /// TypeError
+    ///     Texts that are not three; a power or a distance for a name that is no source.
     ///
     /// Examples
     /// --------

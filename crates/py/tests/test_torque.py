@@ -103,6 +103,9 @@ def test_torques_are_values():
         assert pickle.loads(pickle.dumps(torque)) == torque and copy.deepcopy(torque) is torque
         assert hash(pickle.loads(pickle.dumps(torque))) == hash(torque)
         assert torque != Torque.constant([9, 9, 9])
+    assert Torque.constant([0.0, 0, 1]) == Torque.constant([-0.0, 0, 1]) and hash(Torque.constant([0.0, 0, 1])) == hash(Torque.constant([-0.0, 0, 1]))
+    without_power = Torque.polynomial(["s2", "0", "0"], sources={"s": Orbit(1.0)}, reference_distances={"s": 7000.0})
+    assert pickle.loads(pickle.dumps(without_power)) == without_power
     with_table = Torque.polynomial(["s2", "0", "0"], sources={"s": TABLE})
     assert pickle.loads(pickle.dumps(with_table)) == with_table
     whole = scene(torques)
@@ -125,6 +128,8 @@ def test_angular_momentum_includes_rotors():
     first = motion.rotation(0.0).apply(MOMENTS * RATES + [0.3, -0.2, 0.5])
     assert np.abs(momenta - first).max() <= 1e-12
     assert abs(motion.andoyer(20.0)[4] - np.linalg.norm(first)) <= 1e-12
+    again = Scene.from_andoyer(Body(MOMENTS), motion.andoyer(0.0), torques=motion.scene.torques)
+    assert np.abs(again.angular_velocity - RATES).max() <= 1e-13
 
 
 @pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")

@@ -67,7 +67,8 @@ pub struct TorqueSource {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SourcePath {
-    /// A body on an orbit; the distance is in units of its semi-major axis if that is not given.
+    /// The position on the orbit of these elements, from the rotating body to the source; the distance is in units of the semi-major axis if that is not given. With the
+    /// elements of the rotating body about the source the vector is the opposite one: terms of odd degree in it change their sign.
     Orbit(Orbit),
     /// A body with a table of positions.
     Tabulated(Arc<TabulatedOrbit>),
@@ -78,6 +79,10 @@ pub enum SourcePath {
 impl TorqueSource {
     /// A source by its name.
     pub fn new(name: &str, path: SourcePath) -> Self {
+        let path = match path {
+            SourcePath::Direction(vector) => SourcePath::Direction(vector.map(unsigned)),
+            path => path,
+        };
         Self { name: name.to_owned(), path, power: 0.0, reference_distance: 1.0 }
     }
 
@@ -85,6 +90,8 @@ impl TorqueSource {
     /// table.
     #[must_use]
     pub fn falling(self, power: f64, reference_distance: f64) -> Self {
+        // Without a power no distance counts.
+        let reference_distance = if power == 0.0 { 1.0 } else { reference_distance };
         Self { power, reference_distance, ..self }
     }
 
@@ -137,7 +144,7 @@ impl Torque {
     /// # Errors
     /// - [`Error::Torque`] for NaN or an infinity.
     pub fn constant(torque: [f64; 3]) -> Result<Self, Error> {
-        Self::Constant(torque).validated()
+        Self::Constant(torque.map(unsigned)).validated()
     }
 
     /// The torque −Dω; D need not be symmetric.
@@ -145,7 +152,7 @@ impl Torque {
     /// # Errors
     /// - [`Error::Torque`] for NaN or an infinity.
     pub fn damping(matrix: [[f64; 3]; 3]) -> Result<Self, Error> {
-        Self::Damping(matrix).validated()
+        Self::Damping(matrix.map(|row| row.map(unsigned))).validated()
     }
 
     /// Rotors with this angular momentum in body axes: a gyrostat. The angular momentum of a motion includes it.
@@ -153,7 +160,7 @@ impl Torque {
     /// # Errors
     /// - [`Error::Torque`] for NaN or an infinity.
     pub fn rotor(momentum: [f64; 3]) -> Result<Self, Error> {
-        Self::Rotor(momentum).validated()
+        Self::Rotor(momentum.map(unsigned)).validated()
     }
 
     /// Three polynomials, in variables such as `sun1`, `sun2`, `sun3` for the body components of the unit vector to the source `sun`, and `w1`, `w2`, `w3` for
@@ -251,6 +258,11 @@ impl PolynomialTorque {
     pub(crate) fn turn(&self) -> &UnitQuaternion<f64> {
         &self.turn
     }
+}
+
+/// A number whose 0 has no sign, so that equal torques print and hash alike.
+fn unsigned(number: f64) -> f64 {
+    number + 0.0
 }
 
 /// The angular momentum of all rotors.

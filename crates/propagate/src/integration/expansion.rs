@@ -52,10 +52,11 @@ impl Equations<4> {
     /// has signs of its own.
     pub(super) fn displaced<const W: usize>(&self, [ratios, torques]: [f64; 2], signs: &[Row]) -> Equations<W> {
         let factors = std::array::from_fn(|i| self.factors[i % 4] * (1.0 + ratios * signs[i / 4][i % 4]));
-        let strengths = (0..self.bodies.len())
-            .map(|body| std::array::from_fn(|i| 1.0 + torques * signs[i / 4][body % 4]))
-            .collect();
-        let share = std::array::from_fn(|i| 1.0 + torques * signs[i / 4][3]);
+        // The fourth entries are 0: each body and each axis has one of the first three.
+        let sign = |state: usize, number: usize| signs[state][number % 3];
+        let strengths =
+            (0..self.bodies.len()).map(|body| std::array::from_fn(|i| 1.0 + torques * sign(i / 4, body))).collect();
+        let share = std::array::from_fn(|i| 1.0 + torques * sign(i / 4, i % 4 + 1));
         Equations {
             factors,
             bodies: self.bodies.clone(),
@@ -223,7 +224,7 @@ pub(super) struct Workspace<const W: usize> {
     pub(super) rates: [StateLanes<W>; ROWS],
     /// First coefficients of the parts of Euler's equations: Σ s2 s3 and ω2 ω3.
     pub(super) parts: [StateLanes<W>; 2],
-    /// First coefficient of the angular acceleration by the torques beside the gravity gradient.
+    /// Sums of the sizes of the parts of the angular acceleration by the torques beside the gravity gradient, for rounding errors.
     pub(super) further: StateLanes<W>,
     polynomials: Vec<PolynomialSeries>,
     factors: [Factors<W>; ROWS],
@@ -305,11 +306,12 @@ impl<const W: usize> Workspace<W> {
             let matrix = |j: usize| Matrix3::from_fn(|row, column| factors[j].matrix[row][at + column]);
             let found = torques.coefficient((k, state), rate, matrix, &mut self.polynomials);
             for axis in 0..3 {
-                let found = found[axis] * factor[at + axis];
-                self.rates[k + 1][at + axis] += found * share;
-                if k == 0 {
-                    self.further[at + axis] = found;
-                }
+                self.rates[k + 1][at + axis] += found[axis] * factor[at + axis] * share;
+            }
+            if k == 0 {
+                let rates = &self.rates[0];
+                let sizes = torques.sizes(state, [rates[at], rates[at + 1], rates[at + 2]], &self.polynomials);
+                self.further[at..at + 3].copy_from_slice(&sizes);
             }
         }
     }

@@ -111,6 +111,13 @@ impl Integrated {
         }
     }
 
+    /// The largest |ω| at the start of a step, in the user's unit.
+    pub(crate) fn fastest(&self) -> f64 {
+        let rate = |step: &Step| step.rates.iter().map(|rate| rate * rate).sum::<f64>();
+        let largest = self.sides.iter().flat_map(|side| &side.steps).map(rate).fold(0.0, f64::max);
+        scaled(largest.sqrt(), self.exponent)
+    }
+
     /// The order of the series.
     pub(crate) fn order(&self) -> usize {
         self.order
@@ -131,7 +138,8 @@ pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
 
 /// The cost of a verification of a motion under torques over the span of its scene; `None` without a span.
 pub(crate) fn verification_cost(scene: &Scene) -> Option<VerificationCost> {
-    let bodies = scene.asked_disturbing().len();
+    let polynomials = scene.asked_torques().iter().filter(|torque| matches!(torque, Torque::Polynomial(_))).count();
+    let bodies = scene.asked_disturbing().len() + polynomials;
     if bodies == 0 && scene.asked_torques().is_empty() {
         return VerificationCost::over_span(scene);
     }
@@ -185,14 +193,21 @@ impl Problem {
         }
         for torque in scene.asked_torques() {
             if let Torque::Polynomial(polynomial) = torque {
-                polynomial.sources().iter().try_for_each(|source| reached(source.path(), (start, stop), epoch))?;
+                for source in polynomial.sources() {
+                    reached(source.path(), (start, stop), epoch)?;
+                    if let SourcePath::Orbit(orbit) = source.path() {
+                        fastest = fastest.max(rates_of_motion(orbit));
+                        lasting = lasting.max(orbit.mean_motion());
+                        secular = orbit.rates().iter().fold(secular, |most, rate| most.max(rate.abs()));
+                    }
+                }
             }
         }
         if let Some(torques) = Torques::new(scene, 0) {
-            let rate = torques.rate(&scene.state().angular_velocity.push(0.0).into());
+            let [rate, least] = torques.rates();
             fastest = fastest.max(rate);
-            lasting = lasting.max(rate);
-            square += rate * rate;
+            lasting = lasting.max(least);
+            square += least * least;
         }
         // A coefficient of order k is a rate to the power k: the unit is the mean of a pericentre and the rest, so that neither leaves the range of a double. At
         // rest it is the longer side, for the powers of a step.
@@ -369,14 +384,22 @@ fn reached(path: &SourcePath, span: (f64, f64), epoch: f64) -> Result<(), Error>
 /// The error of a scene with a table whose interpolation leaves the attitude unknown: the time after the worst interval.
 fn too_coarse(scene: &Scene, [start, stop]: [f64; 2]) -> Option<Error> {
     let epoch = scene.state().epoch;
-    scene.asked_disturbing().iter().find_map(|body| match body {
-        DisturbingBody::Tabulated(table) => {
-            let index = table.coarsest(epoch + start, epoch + stop) + 1;
-            let bound = "nearer to the time before it: the interpolation of the positions leaves the attitude unknown";
-            Some(Error::Table { argument: "times", index, value: table.times()[index], bound })
-        }
+    let disturbing = scene.asked_disturbing().iter().filter_map(|body| match body {
+        DisturbingBody::Tabulated(table) => Some(table),
         DisturbingBody::Orbit(_) => None,
-    })
+    });
+    let sources = scene.asked_torques().iter().flat_map(|torque| match torque {
+        Torque::Polynomial(torque) => torque.sources(),
+        _ => &[],
+    });
+    let sources = sources.filter_map(|source| match source.path() {
+        SourcePath::Tabulated(table) => Some(table),
+        _ => None,
+    });
+    let coarsest = disturbing.chain(sources).map(|table| (table, table.coarsest(epoch + start, epoch + stop)));
+    let (table, (interval, _)) = coarsest.max_by(|one, other| one.1.1.total_cmp(&other.1.1))?;
+    let bound = "nearer to the time before it: the interpolation of the positions leaves the attitude unknown";
+    Some(Error::Table { argument: "times", index: interval + 1, value: table.times()[interval + 1], bound })
 }
 
 /// The fastest rate that an orbit brings in, and the torque's √(3μ/ρ³) at the apocentre, or where a hyperbola is farthest within the span.
@@ -389,9 +412,13 @@ fn rates_of_orbit(orbit: &Orbit, ends: [f64; 2]) -> (f64, f64) {
     } else {
         1.0 + e
     };
-    let [node, pericentre] = orbit.rates();
-    let fastest = (strength * near).max(2.0 * orbit.mean_motion() * near).max(node.abs()).max(pericentre.abs());
-    (fastest, strength * farthest.powf(-1.5))
+    ((strength * near).max(rates_of_motion(orbit)), strength * farthest.powf(-1.5))
+}
+
+/// The fastest rate of the directions to a body on an orbit.
+fn rates_of_motion(orbit: &Orbit) -> f64 {
+    let [node, pericentre] = orbit.rates().map(f64::abs);
+    (2.0 * orbit.mean_motion() * (1.0 - orbit.eccentricity()).abs().powf(-1.5)).max(node).max(pericentre)
 }
 
 /// √(3 gm/r³) at the nearest and the farthest position.

@@ -8,9 +8,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::disturber::Disturber;
 use super::interpolation::Table;
-use super::series::{ROWS, Row, Scalars, Series, ZERO, product};
+use super::series::{ROWS, Scalars, Series, ZERO, product};
 use crate::input::scene::Scene;
-use crate::input::torque::{PolynomialTorque, SourcePath, Torque};
+use crate::input::torque::{PolynomialTorque, SourcePath, Torque, TorqueSource};
 use crate::numerics::scaling::scaled;
 use crate::simd::instruction_set::InstructionSet;
 
@@ -35,6 +35,10 @@ struct Recipe {
     /// Coefficients and places of the monomials of each component.
     sums: [Vec<(f64, usize)>; 3],
     constants: Vector3<f64>,
+    /// The largest and the smallest acceleration at the rates of the epoch.
+    size: [f64; 2],
+    /// Rounding errors of a term, of its factors and of the powers of the distances, over those of a product of two.
+    roundings: f64,
 }
 
 /// A source: the unit vector to it, and (r₀/r)^p.
@@ -82,15 +86,27 @@ impl Torques {
         })
     }
 
-    /// The rate that the torques bring in at the epoch: of damping and rotors, and the roots of the other accelerations.
-    pub(super) fn rate(&self, rates: &Row) -> f64 {
-        let fastest = rates.iter().fold(1.0_f64, |most, rate| most.max(rate.abs()));
-        let polynomial = |recipe: &Recipe| {
-            let size = |sum: &Vec<(f64, usize)>| sum.iter().map(|(c, _)| c.abs()).sum::<f64>();
-            recipe.back.norm() * (recipe.sums.iter().map(size).sum::<f64>() * fastest + recipe.constants.norm())
-        };
-        let acceleration = self.constant.norm() + self.polynomials.iter().map(polynomial).sum::<f64>();
-        self.linear.norm().max(acceleration.sqrt())
+    /// The fastest rate that the torques bring in, and one that lasts: those of damping and rotors, and the roots of the accelerations at the epoch's rates, with the
+    /// sources where they are nearest and farthest.
+    pub(super) fn rates(&self) -> [f64; 2] {
+        [0, 1].map(|end| {
+            let polynomials = self.polynomials.iter().map(|recipe| recipe.size[end]).sum::<f64>();
+            self.linear.norm().max((self.constant.norm() + polynomials).sqrt())
+        })
+    }
+
+    /// Sums of the sizes of all parts of the accelerations of one state at the start of a step, times the number of their rounding errors over that of a product of two.
+    pub(super) fn sizes(&self, state: usize, rates: [f64; 3], series: &[PolynomialSeries]) -> [f64; 3] {
+        let rates = Vector3::from(rates).abs();
+        let mut sizes = self.constant.abs() + self.linear.abs() * rates;
+        for (recipe, series) in self.polynomials.iter().zip(series) {
+            let term = |(c, place): &(f64, usize)| (c * series.nodes[state][*place][0]).abs();
+            let parts = Vector3::from_fn(|axis, _| {
+                recipe.sums[axis].iter().map(term).sum::<f64>() + recipe.constants[axis].abs()
+            });
+            sizes += recipe.back.abs() * parts * (series.fall[0].abs() * recipe.roundings);
+        }
+        sizes.into()
     }
 
     /// The bodies and tables of the sources.
@@ -172,7 +188,10 @@ impl Recipe {
             let path = |strength: f64, power: f64| match source.path() {
                 SourcePath::Orbit(orbit) => Ok(Disturber::of_orbit(orbit, (epoch, exponent), (strength, power))),
                 SourcePath::Tabulated(table) => Ok(Disturber::of_table(table, (epoch, exponent), (strength, power))),
-                SourcePath::Direction(vector) => Err((Vector3::from(*vector).normalize()).into()),
+                SourcePath::Direction(vector) => {
+                    let vector = Vector3::from(*vector);
+                    Err((vector / vector.amax()).normalize().into())
+                }
             };
             // In the unit of length of the path.
             let size = match source.path() {
@@ -194,19 +213,29 @@ impl Recipe {
             sums: std::array::from_fn(|_| Vec::new()),
             constants: Vector3::zeros(),
             sources,
+            size: [0.0; 2],
+            roundings: 0.0,
         };
+        let (spin, mut size, mut degree) = (scaled(scene.state().angular_velocity.norm(), -exponent), 0.0, 0);
         let mut known: Vec<Vec<u32>> = Vec::new();
         for (axis, terms) in torque.terms().iter().enumerate() {
             for (coefficient, exponents) in terms {
                 // Rates are in the unit of the integration.
                 let of_rates: u32 = exponents[exponents.len() - 3..].iter().sum();
                 let coefficient = scaled(*coefficient, exponent * of_rates as i32); // the degree is at most 8
+                size += coefficient.abs() * spin.powi(of_rates as i32);
+                degree = degree.max(exponents.iter().sum());
                 match recipe.place(exponents, &mut known) {
                     Some(place) => recipe.sums[axis].push((coefficient, place)),
                     None => recipe.constants[axis] += coefficient,
                 }
             }
         }
+        let powers = torque.sources().iter().map(|source| source.distance_power().0.abs()).sum::<f64>();
+        recipe.roundings = 0.5 * (1.0 + f64::from(degree) + powers);
+        let falls = torque.sources().iter().map(|source| falls(source, scene));
+        let falls = falls.fold([1.0; 2], |product, falls| [product[0] * falls[0], product[1] * falls[1]]);
+        recipe.size = falls.map(|fall| recipe.back.norm() * size * fall);
         recipe
     }
 
@@ -263,4 +292,28 @@ impl Recipe {
         }
         self.back * torque
     }
+}
+
+/// The largest and the smallest (r₀/r)^p of a source.
+fn falls(source: &TorqueSource, scene: &Scene) -> [f64; 2] {
+    let (power, reference) = source.distance_power();
+    let distances = match source.path() {
+        SourcePath::Orbit(orbit) => {
+            let (e, size) = (orbit.eccentricity(), orbit.asked_semi_major_axis().unwrap_or(1.0));
+            let farthest = if orbit.is_hyperbola() {
+                let (start, stop) = scene.asked_span().unwrap_or_default();
+                orbit.hyperbolic_distance(start).max(orbit.hyperbolic_distance(stop))
+            } else {
+                1.0 + e
+            };
+            [(1.0 - e).abs(), farthest].map(|distance| size * distance)
+        }
+        SourcePath::Tabulated(table) => {
+            let distances = table.positions().iter().map(|[x, y, z]| x.hypot(*y).hypot(*z));
+            distances.fold([f64::INFINITY, 0.0], |[least, most], r| [r.min(least), r.max(most)])
+        }
+        SourcePath::Direction(_) => return [1.0; 2],
+    };
+    let [one, other] = distances.map(|distance| (reference / distance).powf(power));
+    [one.max(other), one.min(other)]
 }

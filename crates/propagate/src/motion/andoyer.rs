@@ -16,7 +16,7 @@ use crate::torque_free::polhode::Frame;
 const AT_ONCE: usize = 64;
 
 impl Motion {
-    /// [λ, μ, ν, Λ, M, N] at a time: angles in (−π, π] \[rad\], momenta in units of moment × rate, with those of rotors. All are 0 for a body at rest.
+    /// [λ, μ, ν, Λ, M, N] at a time: angles in (−π, π] \[rad\], momenta in units of moment × rate, with those of rotors. All are 0 for a body at rest without rotors.
     ///
     /// ```
     /// use andoyer_propagate::{Body, Scene, State};

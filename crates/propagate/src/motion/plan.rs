@@ -56,7 +56,7 @@ pub struct Plan {
     pub(crate) order: usize,
     pub(crate) harmonics: usize,
     pub(crate) error_bound: f64,
-    /// Largest |ω| of the torque-free motion.
+    /// Largest |ω| of the torque-free motion, or of an integrated one if that is larger.
     pub(crate) fastest: f64,
     pub(crate) tolerance: f64,
     /// Whether the scene has a span.
@@ -135,7 +135,7 @@ impl Plan {
     }
 
     /// Estimated bound of the error of the angular velocity over the span, in body components \[rad per unit of time\]: 2 |ω| times the error bound of the attitude, with the
-    /// largest |ω| of the torque-free motion. One part is the error of the direction of the angular momentum in the body, the other that of the phase along the polhode.
+    /// largest |ω| of the torque-free motion, or of the steps of an integration. One part is the error of the direction of the angular momentum in the body, the other that of the phase along the polhode.
     ///
     /// A motion that starts from a sample has an error of this rate: its attitude departs by the bound times the time.
     ///

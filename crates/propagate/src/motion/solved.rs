@@ -143,7 +143,7 @@ impl Motion {
         Periods { precession: std::f64::consts::TAU / precession, rotation: std::f64::consts::TAU / anomaly.abs() }
     }
 
-    /// The angular momentum at the epoch in inertial components. It is constant unless there is an orbit.
+    /// The angular momentum at the epoch in inertial components, with that of rotors. It is constant without an orbit and other torques.
     pub fn angular_momentum(&self) -> Vector3<f64> {
         self.angular_momentum
     }

@@ -8,6 +8,7 @@ use andoyer_series::error::Short;
 use crate::error::Error;
 use crate::input::body::Body;
 use crate::input::scene::Scene;
+use crate::input::torque::{Torque, rotors};
 use crate::torque_free::polhode::Frame;
 
 /// Largest relative excess of |Λ| and |N| over M, which allows for rounding.
@@ -31,6 +32,14 @@ impl Scene {
     /// # Ok::<(), andoyer_propagate::Error>(())
     /// ```
     pub fn from_andoyer(body: Body, variables: [f64; 6], epoch: f64) -> Result<Self, Error> {
+        Self::from_andoyer_with(body, variables, epoch, Vec::new())
+    }
+
+    /// The scene of [`Scene::from_andoyer`] with torques. The variables include the angular momentum of rotors, as those of [`Motion::andoyer`](crate::Motion::andoyer) do.
+    ///
+    /// # Errors
+    /// As [`Scene::from_andoyer`].
+    pub fn from_andoyer_with(body: Body, variables: [f64; 6], epoch: f64, torques: Vec<Torque>) -> Result<Self, Error> {
         let refused =
             |index: usize, bound: &str| Error::Andoyer { index, value: variables[index], bound: bound.to_owned() };
         if let Some(index) = variables.iter().position(|value| !value.is_finite()) {
@@ -61,7 +70,9 @@ impl Scene {
         let frame = Frame::new(moments, [0.0; 3], false);
         let attitude = about(node) * inclination * about(angle) * tilt * about(spin) * frame.quaternion;
         let direction = frame.user([sine * spin.sin(), sine * spin.cos(), cosine]);
-        let rates = Vector3::from_fn(|axis, _| momentum * direction[axis] / moments[axis]);
-        Ok(scene_about_principal_axes(body, epoch, attitude, rates))
+        let turn = body.turn().unwrap_or_else(UnitQuaternion::identity);
+        let rotors = turn.inverse() * rotors(&torques);
+        let rates = Vector3::from_fn(|axis, _| (momentum * direction[axis] - rotors[axis]) / moments[axis]);
+        Ok(scene_about_principal_axes(body, epoch, attitude, rates).torques(torques))
     }
 }

@@ -143,7 +143,7 @@ impl TabulatedOrbit {
     }
 
     /// The interval between two times in which a neighbouring polynomial departs most from its own, relative to the distance.
-    pub(crate) fn coarsest(&self, start: f64, stop: f64) -> usize {
+    pub(crate) fn coarsest(&self, start: f64, stop: f64) -> (usize, f64) {
         let departure = |interval: usize| {
             let middle = 0.5 * self.times[interval] + 0.5 * self.times[interval + 1];
             let at = |(start, count)| Vector3::from(self.through(start, count, middle));
@@ -152,7 +152,8 @@ impl TabulatedOrbit {
             one.max(other) / own.norm()
         };
         let intervals = self.interval(start)..=self.interval(stop);
-        intervals.max_by(|one, other| departure(*one).total_cmp(&departure(*other))).unwrap_or(0)
+        let intervals = intervals.map(|interval| (interval, departure(interval)));
+        intervals.max_by(|one, other| one.1.total_cmp(&other.1)).unwrap_or((0, 0.0))
     }
 
     /// The first and the last time of the table.

@@ -11,6 +11,7 @@ use crate::error::Error;
 use crate::input::options::Method;
 use crate::input::scene::Scene;
 use crate::input::state::State;
+use crate::input::torque::rotors;
 use crate::motion::solved::Motion;
 
 use super::derivatives::Derivatives;
@@ -36,7 +37,7 @@ pub(super) fn fill<const N: usize>(
         Some(averaging) => scene.averaging(averaging).method(Method::Closed),
         None => scene.method(Method::Integrated),
     };
-    let steps = steps::<N>(&scene, times);
+    let steps = steps::<N>(motion, times);
     let mut samples = Samples::new(times.len());
     samples.evaluate(&scene, times)?;
     let origins = samples.attitudes.clone();
@@ -75,11 +76,18 @@ impl Samples {
 }
 
 /// The step of each parameter.
-fn steps<const N: usize>(scene: &Scene, times: &[f64]) -> [f64; N] {
+fn steps<const N: usize>(motion: &Motion, times: &[f64]) -> [f64; N] {
+    let scene = &motion.scene;
     let State { epoch, angular_velocity, .. } = *scene.state();
     let farthest = times.iter().fold(0.0_f64, |most, time| most.max((time - epoch).abs()));
     // The rates of a body at rest need a step that is not 0.
-    let rate = match angular_velocity.norm() {
+    let least = scene.body().moments().into_iter().fold(f64::INFINITY, f64::min);
+    // Torques may spin the body up, and rotors may turn it faster than it rotates at the epoch.
+    let spun = match scene.asked_torques() {
+        [] => 0.0,
+        torques => motion.plan.fastest + rotors(torques).norm() / least,
+    };
+    let rate = match angular_velocity.norm().max(spun) {
         0.0 => STEP / farthest.max(f64::MIN_POSITIVE),
         rate => rate,
     };

@@ -31,6 +31,7 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, reason: String, stop: 
     plan.verification = verification_cost(&scene);
     plan.method = Method::Integrated;
     plan.order = motion.order();
+    plan.fastest = plan.fastest.max(motion.fastest());
     plan.integration = Some(motion.plan());
     plan.skipped.extend(Some(reason).filter(|reason| !reason.is_empty()));
     if let Some(order) = scene.asked_order() {
