@@ -7,7 +7,7 @@ use crate::foreign::Calendar;
 
 /// A body, its state at an epoch, and the requested accuracy of the solution.
 ///
-/// Only the gravity of point masses acts on the body: there is no magnetic torque, no wheel, no drag, no radiation pressure and no damping.
+/// The gravity of point masses acts on the body, and torques that you state: there is no built-in magnetic torque, no drag, no radiation pressure and no control.
 ///
 /// Time, moments and angular velocity are in any consistent set of units; angles are in rad.
 ///
