@@ -269,6 +269,11 @@ fn a_scene_with_a_torque_is_integrated_or_says_what_it_needs() -> Result<(), Err
     let endless = Scene::new(scene.body().clone(), state).torques([Torque::constant([1e-3; 3])?]);
     assert!(matches!(endless.solve(), Err(Error::NoSpan { .. })));
     assert!(matches!(scene.clone().torques([Torque::Constant([f64::NAN; 3])]).solve(), Err(Error::Torque { .. })));
+    // (1/1.5e11)^40 is no double.
+    let far = Orbit::new(1e-7, 0.1)?.semi_major_axis(1.5e11)?;
+    let source = TorqueSource::new("sun", SourcePath::Orbit(far)).falling(40.0, 1.0);
+    let lost = scene.clone().torques([Torque::polynomial(["sun2", "0", "0"], vec![source])?]).solve();
+    assert!(matches!(lost, Err(Error::Torque { argument: "distance_powers", .. })), "{lost:?}");
     // A table that ends within the span.
     let table = TabulatedOrbit::new((0..8).map(|k| 5.0 * f64::from(k)).collect(), vec![[1.0, 0.0, 0.0]; 8], 1.0)?;
     let source = TorqueSource::new("sun", SourcePath::Tabulated(table.into()));

@@ -11,7 +11,7 @@ use super::disturber::Disturber;
 use super::expansion::Equations;
 use super::integrator::{KeptSteps, Precision, ROUNDING, Runner, Side, Step};
 use super::series::{Row, largest};
-use super::torques::Torques;
+use super::torques::{Torques, falls};
 use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::input::torque::{SourcePath, Torque};
@@ -191,18 +191,8 @@ impl Problem {
             lasting = lasting.max(least);
             square += least * least;
         }
-        for torque in scene.asked_torques() {
-            if let Torque::Polynomial(polynomial) = torque {
-                for source in polynomial.sources() {
-                    reached(source.path(), (start, stop), epoch)?;
-                    if let SourcePath::Orbit(orbit) = source.path() {
-                        fastest = fastest.max(rates_of_motion(orbit));
-                        lasting = lasting.max(orbit.mean_motion());
-                        secular = orbit.rates().iter().fold(secular, |most, rate| most.max(rate.abs()));
-                    }
-                }
-            }
-        }
+        let sources = rates_of_sources(scene, (start, stop))?;
+        (fastest, lasting, secular) = (fastest.max(sources[0]), lasting.max(sources[1]), secular.max(sources[2]));
         if let Some(torques) = Torques::new(scene, 0) {
             let [rate, least] = torques.rates();
             fastest = fastest.max(rate);
@@ -372,13 +362,35 @@ fn covered(table: &TabulatedOrbit, (start, stop): (f64, f64)) -> Result<(), Erro
     if start < first || stop > last { Err(Error::TableSpan { start, stop, first, last }) } else { Ok(()) }
 }
 
-/// Whether the source of a torque has a position over a span.
-fn reached(path: &SourcePath, span: (f64, f64), epoch: f64) -> Result<(), Error> {
-    match path {
-        SourcePath::Orbit(orbit) => orbit.within_reach(epoch),
-        SourcePath::Tabulated(table) => covered(table, span),
-        SourcePath::Direction(_) => Ok(()),
+/// The fastest, the lasting and the secular rates that the sources of torques bring in.
+///
+/// # Errors
+/// Those of a source without a position over the span, and [`Error::Torque`] for powers of its distance that no double holds.
+fn rates_of_sources(scene: &Scene, span: (f64, f64)) -> Result<[f64; 3], Error> {
+    let mut rates = [0.0_f64; 3];
+    let sources = scene.asked_torques().iter().flat_map(|torque| match torque {
+        Torque::Polynomial(torque) => torque.sources(),
+        _ => &[],
+    });
+    for source in sources {
+        match source.path() {
+            SourcePath::Orbit(orbit) => {
+                orbit.within_reach(scene.state().epoch)?;
+                let secular = orbit.rates().iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+                let own = [rates_of_motion(orbit), orbit.mean_motion(), secular];
+                rates = std::array::from_fn(|k| rates[k].max(own[k]));
+            }
+            SourcePath::Tabulated(table) => covered(table, span)?,
+            SourcePath::Direction(_) => {}
+        }
+        if falls(source, scene).iter().any(|fall| !fall.is_normal()) {
+            let (power, distance) = source.distance_power();
+            let value = format!("{}: {power} with a reference distance of {distance:e}", source.name());
+            let bound = "such that (r0/r)^p is a double over the span".to_owned();
+            return Err(Error::Torque { argument: "distance_powers", value, bound });
+        }
     }
+    Ok(rates)
 }
 
 /// The error of a scene with a table whose interpolation leaves the attitude unknown: the time after the worst interval.

@@ -180,29 +180,32 @@ impl Torques {
     }
 }
 
+impl SourceSeries {
+    fn new(source: &TorqueSource, at: (f64, i32)) -> Self {
+        let (power, reference) = source.distance_power();
+        let path = |strength: f64, power: f64| match source.path() {
+            SourcePath::Orbit(orbit) => Ok(Disturber::of_orbit(orbit, at, (strength, power))),
+            SourcePath::Tabulated(table) => Ok(Disturber::of_table(table, at, (strength, power))),
+            SourcePath::Direction(vector) => {
+                let vector = Vector3::from(*vector);
+                Err((vector / vector.amax()).normalize().into())
+            }
+        };
+        // In the unit of length of the path.
+        let size = match source.path() {
+            SourcePath::Orbit(orbit) => orbit.asked_semi_major_axis().unwrap_or(1.0),
+            SourcePath::Tabulated(table) => Table::length(table),
+            SourcePath::Direction(_) => 1.0,
+        };
+        let fall = (power != 0.0).then(|| path((reference / size).powf(power), -power).ok()).flatten();
+        Self { direction: path(1.0, -1.0), fall }
+    }
+}
+
 impl Recipe {
     fn new(torque: &PolynomialTorque, inverse: &Matrix3<f64>, scene: &Scene, exponent: i32) -> Self {
         let epoch = scene.state().epoch;
-        let sources = torque.sources().iter().map(|source| {
-            let (power, reference) = source.distance_power();
-            let path = |strength: f64, power: f64| match source.path() {
-                SourcePath::Orbit(orbit) => Ok(Disturber::of_orbit(orbit, (epoch, exponent), (strength, power))),
-                SourcePath::Tabulated(table) => Ok(Disturber::of_table(table, (epoch, exponent), (strength, power))),
-                SourcePath::Direction(vector) => {
-                    let vector = Vector3::from(*vector);
-                    Err((vector / vector.amax()).normalize().into())
-                }
-            };
-            // In the unit of length of the path.
-            let size = match source.path() {
-                SourcePath::Orbit(orbit) => orbit.asked_semi_major_axis().unwrap_or(1.0),
-                SourcePath::Tabulated(table) => Table::length(table),
-                SourcePath::Direction(_) => 1.0,
-            };
-            let fall = (power != 0.0).then(|| path((reference / size).powf(power), -power).ok()).flatten();
-            SourceSeries { direction: path(1.0, -1.0), fall }
-        });
-        let sources: Vec<_> = sources.collect();
+        let sources = torque.sources().iter().map(|source| SourceSeries::new(source, (epoch, exponent))).collect();
         let turn = torque.turn().to_rotation_matrix().into_inner();
         let unit = |part: f64| scaled(part, -exponent);
         let back = (inverse * turn.transpose()).map(|part| unit(unit(part)));
@@ -295,7 +298,7 @@ impl Recipe {
 }
 
 /// The largest and the smallest (r₀/r)^p of a source.
-fn falls(source: &TorqueSource, scene: &Scene) -> [f64; 2] {
+pub(super) fn falls(source: &TorqueSource, scene: &Scene) -> [f64; 2] {
     let (power, reference) = source.distance_power();
     let distances = match source.path() {
         SourcePath::Orbit(orbit) => {
