@@ -30,4 +30,5 @@ mod threads;
 mod torque_free;
 mod torques;
 mod user_axes;
+mod variation;
 mod verify;

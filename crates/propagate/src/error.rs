@@ -261,6 +261,10 @@ andoyer_series::error_table! {
         OrbitalFrame { argument: &'static str = "The argument.", value: String = "Its value.", bound: String = "The requirement." }
         => Input, facts(*argument, value, bound);
 
+        /// A parameter of derivatives that the scene lacks.
+        #[error("with_respect_to = {value}: it must be {bound}")]
+        Parameter { value: String = "The parameter.", bound: String = "The requirement." } => Input, facts("with_respect_to", value, bound);
+
         /// A span that a table of positions does not cover.
         #[error("span: the integration goes from {start} to {stop}, and the table of positions only from {first} to {last}", start = Short(*.start), stop = Short(*.stop), first = Short(*.first), last = Short(*.last))]
         TableSpan {

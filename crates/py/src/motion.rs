@@ -2,19 +2,18 @@
 
 use std::sync::atomic::AtomicBool;
 
-use andoyer_propagate::partials::{INERTIA_PARAMETERS, PARAMETERS};
 use andoyer_propagate::periods::Convention;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyType};
 
-use crate::array::{Times, chunks, matrices, write};
+use crate::array::{Times, chunks, write};
 use crate::computing::{detached, interruptible};
 use crate::error;
 use crate::foreign::{self, Calendar};
 use crate::mean;
-use crate::partials::Partials;
+use crate::partials::{self, Partials};
 use crate::plan::Plan;
 use crate::samples::Samples;
 use crate::scene_class::Scene;
@@ -219,27 +218,34 @@ impl Motion {
         foreign::rotation(&self.attitude(times, None, false)?)
     }
 
-    /// Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12).
+    /// Evaluates the derivatives of attitude and angular velocity with respect to the initial state, the moments, and the orbits of disturbing bodies (theory §12).
     ///
-    /// The nine columns are the initial attitude (a small rotation about body axes 1, 2, 3), the initial angular velocity, and the moments as given. For a body
-    /// made by `Body.from_inertia` there are twelve: the six elements I11, I22, I33, I12, I13, I23 of the tensor replace the moments, and a change of I12 is one
-    /// of I21 too. A change of attitude is a rotation vector δθ about body axes, R → R exp([δθ]×); rates are body components. The derivatives are in closed form
-    /// at any time and in every mode, or power series where the closed form cancels. A scene with an orbit uses differences (see `Plan.partials`).
+    /// By default there are nine columns: the initial attitude (a small rotation about body axes 1, 2, 3), the initial angular velocity, and the moments as given. For
+    /// a body made by `Body.from_inertia` there are twelve: the six elements I11, I22, I33, I12, I13, I23 of the tensor replace the moments, and a change of I12 is one
+    /// of I21 too. A change of attitude is a rotation vector δθ about body axes, R → R exp([δθ]×); rates are body components. Of a free motion the derivatives are in
+    /// closed form at any time and in every mode, or power series where the closed form cancels; under a torque they are integrated (see `Plan.partials`).
     ///
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,)
     ///     Times, in the unit of time of the scene.
+    /// with_respect_to : str or sequence of str and (str, int), optional
+    ///     Groups of parameters: "attitude" (3 columns), "angular_velocity" (3), "moments" (3, or the 6 elements of a tensor), "orbit" (6: mean_motion, eccentricity,
+    ///     time_of_pericentre, inclination, node, argument_of_pericentre), "attraction" (1). The last two are those of the disturbing body; of several the index says
+    ///     which: ("orbit", 1). The other arguments of the orbit are held, `attraction` or `mass_fraction` among them, whichever it was made with. The orbits of
+    ///     sources of torques are no parameters.
     ///
     /// Returns
     /// -------
     /// Partials
-    ///     Derivatives (n, 3, 9) of attitude and angular velocity, (n, 3, 12) for a body from a tensor.
+    ///     Derivatives (n, 3, k) of attitude and angular velocity, with k columns named by `Partials.parameters`.
     ///
     /// Raises
     /// ------
     /// TheoryError
     ///     The motion is on the separatrix, where the frequencies have no derivatives.
+    /// InputError
+    ///     An unknown parameter, or that of a disturbing body that the scene lacks or that has a table.
     ///
     /// Examples
     /// --------
@@ -248,26 +254,36 @@ impl Motion {
     /// >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0, 0, 2.0]).solve()
     /// >>> float(motion.partials(10.0).attitude[2, 5])
     /// 10.0
-    fn partials(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Partials> {
+    ///
+    /// A satellite at its equilibrium on a circle: if the orbit is turned about axis 3, the body librates by 1 − cos(n t √(3 (B − A)/C)) of the turn.
+    ///
+    /// >>> import math
+    /// >>> scene = Scene(Body([1, 1.2, 2]), [0, 0, 0, 1], [0, 0, 0.1], orbit=Orbit(0.1), span=(0, 20), method="integrated")
+    /// >>> partials = scene.solve().partials(20.0, with_respect_to=("orbit", "attraction"))
+    /// >>> partials.parameters[4], round(float(partials.attitude[2, 4]), 8), round(1 - math.cos(2 * math.sqrt(3 * 0.2 / 2)), 8)
+    /// ('node', 0.54234925, 0.54234925)
+    #[pyo3(signature = (times, with_respect_to=None), text_signature = "($self, times, with_respect_to=('attitude', 'angular_velocity', 'moments'))")]
+    fn partials(
+        &self,
+        py: Python<'_>,
+        times: &Bound<'_, PyAny>,
+        with_respect_to: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Partials> {
         let times = self.times(times)?;
         let since_epoch = times.since_epoch();
-        let by_tensor = self.0.scene().body().has_tensor();
-        let [copy, attitude, rates] = times.matrices(if by_tensor { INERTIA_PARAMETERS } else { PARAMETERS })?;
+        let parameters = partials::parameters(&self.0, with_respect_to)?;
+        let names = self.0.parameter_names(&parameters).map_err(error::propagation)?;
+        let [copy, attitude, rates] = times.matrices(names.len())?;
         {
             let (values, mut attitude, mut rates) = (times.values()?, write(&attitude)?, write(&rates)?);
             let long = times.long_partials();
-            if by_tensor {
-                let (attitude, rates) = (matrices(&mut attitude)?, matrices(&mut rates)?);
-                let evaluate =
-                    |stop: &AtomicBool| self.batch(since_epoch, stop).inertia_partials_into(values, attitude, rates);
-                interruptible(py, long, error::propagation, evaluate)?;
-            } else {
-                let (attitude, rates) = (matrices(&mut attitude)?, matrices(&mut rates)?);
-                let evaluate = |stop: &AtomicBool| self.batch(since_epoch, stop).partials_into(values, attitude, rates);
-                interruptible(py, long, error::propagation, evaluate)?;
-            }
+            let (attitude, rates) = (attitude.as_slice_mut()?, rates.as_slice_mut()?);
+            let evaluate = |stop: &AtomicBool| {
+                self.batch(since_epoch, stop).partials_with_respect_to(&parameters, values, attitude, rates)
+            };
+            interruptible(py, long, error::propagation, evaluate)?;
         }
-        Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
+        Ok(Partials::new([copy, attitude, rates].map(Bound::unbind), names))
     }
 
     /// Writes a source file with a self-contained function `rotation(time)` that evaluates this motion (theory §8).

@@ -8,7 +8,7 @@ import pytest
 from conftest import REPOSITORY
 
 import andoyer
-from andoyer import Body, Scene
+from andoyer import Body, Orbit, Scene, TabulatedOrbit
 
 CASES = {case["name"]: case for case in json.loads((REPOSITORY / "tests/data/partials.json").read_text(encoding="utf-8"))}
 
@@ -61,10 +61,92 @@ def test_errors_say_why_there_are_no_derivatives(motion):
         motion.partials(np.nan)
 
 
-def test_scene_with_an_orbit_has_derivatives_by_differences():
+def test_scene_with_an_orbit_has_derivatives_by_variational_equations():
     scene = Scene(Body([1, 1.02, 1.05]), [0, 0, 0, 1], [0.02, 0.01, 1.0], orbit=andoyer.Orbit(1e-3, 0.1))
     motion = scene.solve()
-    assert motion.plan.partials == "differences"
+    assert motion.plan.partials == "variational"
     free = Scene(scene.body, scene.attitude, scene.angular_velocity).solve().partials([10.0, 20.0])
     disturbed = motion.partials([10.0, 20.0])
     assert 1e-7 < np.abs(disturbed.attitude - free.attitude).max() < 1e-3
+
+
+ELEMENTS = ("mean_motion", "eccentricity", "time_of_pericentre", "inclination", "node", "argument_of_pericentre")
+STATE = ([0.1, 0.2, 0.3, 0.9273618495495703], [0.2, 0.4, 1.1])
+
+
+def two_bodies(**options):
+    orbits = [Orbit(0.02, 0.3, inclination=0.4, mass_fraction=0.5), Orbit(0.03, 0.1, node=1.0)]
+    return Scene(Body([1.0, 1.3, 1.5]), *STATE, orbit=orbits, span=(-50, 50), **options).solve()
+
+
+def test_columns_are_those_asked_for_with_their_names():
+    motion = two_bodies(method="integrated")
+    every = motion.partials([0.0, 40.0], with_respect_to=["moments", ("orbit", 1), ("attraction", 0)])
+    assert every.parameters == ("moment_1", "moment_2", "moment_3", *(f"{name}[1]" for name in ELEMENTS), "attraction[0]")
+    assert every.attitude.shape == every.angular_velocity.shape == (2, 3, 10)
+    assert (every.attitude[0] == 0).all()
+    whole = motion.partials([0.0, 40.0])
+    np.testing.assert_allclose(every.attitude[:, :, :3], whole.attitude[:, :, 6:], rtol=1e-12, atol=1e-12 * np.abs(whole.attitude).max())
+    pair = motion.partials(40.0, with_respect_to=("orbit", 1))
+    np.testing.assert_allclose(pair.attitude, every.attitude[1, :, 3:9], rtol=1e-11, atol=1e-13)
+    again = pickle.loads(pickle.dumps(every))
+    assert again.parameters == every.parameters and (again.attitude == every.attitude).all()
+
+
+def test_a_free_motion_gives_the_columns_asked_for(motion):
+    whole = motion.partials([2.0, 3.0])
+    assert whole.parameters == tuple(f"{name}_{axis}" for name in ("attitude", "angular_velocity", "moment") for axis in (1, 2, 3))
+    chosen = motion.partials([2.0, 3.0], with_respect_to=("moments", "attitude"))
+    assert chosen.parameters == whole.parameters[6:] + whole.parameters[:3]
+    assert (chosen.attitude == whole.attitude[:, :, [6, 7, 8, 0, 1, 2]]).all()
+    assert motion.partials(2.0, with_respect_to="angular_velocity").attitude.shape == (3, 3)
+    assert motion.partials(2.0, with_respect_to=()).attitude.shape == (3, 0)
+
+
+@pytest.mark.parametrize("options", [{"method": "integrated"}, {}])
+def test_derivatives_by_the_attraction_and_an_element_are_differences_of_motions(options):
+    def motion(attraction, inclination):
+        orbit = Orbit(0.004, 0.3, inclination=inclination, attraction=attraction)
+        return Scene(Body([1.0, 1.3, 1.5]), *STATE, orbit=orbit, span=(0, 150), **options).solve()
+
+    partials = motion(1e-5, 0.4).partials(150.0, with_respect_to=("attraction", "orbit"))
+    for column, step in ((0, [1e-8, 0]), (4, [0, 1e-3])):
+        changed = [motion(1e-5 + sign * step[0], 0.4 + sign * step[1]).rotation(150.0) for sign in (1, -1)]
+        turned = (changed[1].inv() * changed[0]).as_rotvec() / (2 * max(step))
+        # Those of an averaged motion are derivatives of the equations: the theory's change of the attitude has an error of the second order.
+        assert np.abs(partials.attitude[:, column] - turned).max() <= (1e-5 if options else 1e-2) * np.abs(turned).max()
+
+
+@pytest.mark.parametrize(
+    ("asked", "error", "message"),
+    [
+        ("mass", andoyer.InputError, '"mass"'),
+        ("orbit", andoyer.InputError, "several"),
+        (("orbit", 2), andoyer.InputError, "from 0 to 1"),
+        (("moments", 0), andoyer.InputError, "without an index"),
+        ([("orbit", -1)], TypeError, "name and index"),
+        (3, TypeError, "not 3"),
+        ([None], TypeError, "not"),
+    ],
+)
+def test_a_parameter_that_the_scene_lacks_is_named(asked, error, message):
+    with pytest.raises(error, match=message):
+        two_bodies(method="integrated").partials(1.0, with_respect_to=asked)
+
+
+def test_a_body_without_an_orbit_has_no_elements(motion):
+    with pytest.raises(andoyer.InputError, match="without a disturbing body"):
+        motion.partials(1.0, with_respect_to="orbit")
+    times = np.linspace(-1, 11, 60)
+    path = TabulatedOrbit(times, np.stack([np.cos(0.1 * times), np.sin(0.1 * times), 0 * times], 1), 0.01)
+    table = Scene(Body([1.0, 1.3, 1.5]), *STATE, orbit=path, span=(0, 10), method="integrated").solve()
+    assert table.partials(1.0, with_respect_to="moments").attitude.shape == (3, 3)
+    with pytest.raises(andoyer.InputError, match="table"):
+        table.partials(1.0, with_respect_to="attraction")
+
+
+def test_a_body_of_nearly_no_attraction_has_derivatives_by_its_attraction():
+    orbit = Orbit(0.02, 0.3, inclination=0.4, attraction=1e-300)
+    motion = Scene(Body([1.0, 1.3, 1.5]), *STATE, orbit=orbit, span=(0, 20)).solve()
+    partials = motion.partials(20.0, with_respect_to=("orbit", "attraction"))
+    assert np.abs(partials.attitude[:, :6]).max() <= 1e-290 and np.abs(partials.attitude[:, 6]).max() > 1

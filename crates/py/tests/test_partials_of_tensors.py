@@ -97,7 +97,7 @@ def test_members_of_an_ensemble_have_the_parameters_and_bits_of_their_motions():
         assert np.isnan(partials.attitude[2]).all() and ensemble.partials(10.0).attitude.shape == (3, 3, 12)
 
 
-def test_differences_under_a_torque_have_twelve_parameters_too():
+def test_derivatives_under_a_torque_have_twelve_parameters_too():
     scene = Scene(TRUTH.body, [0, 0, 0, 1], [0.02, 0.03, 1.0], orbit=Orbit(1e-3, 0.1), span=(0, 50))
     found = scene.solve().partials([10.0, 50.0]).attitude
     free = Scene(TRUTH.body, [0, 0, 0, 1], [0.02, 0.03, 1.0]).solve().partials([10.0, 50.0]).attitude

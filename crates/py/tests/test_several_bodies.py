@@ -110,7 +110,7 @@ def test_satellite_with_the_node_of_an_oblate_earth_is_that_of_the_integration_f
 def test_derivatives_of_a_motion_under_two_bodies_are_those_of_the_integration():
     options = {"orbit": [PRECESSING, SECOND], "span": (0, 300), "tolerance": 1e-11}
     theory, exact = (Scene(BODY, ATTITUDE, RATES, method=method, **options).solve() for method in ("closed", "integrated"))
-    assert theory.plan.partials == "differences"
+    assert theory.plan.partials == "variational"
     found, expected = (np.asarray(motion.partials(200.0).attitude) for motion in (theory, exact))
     # The theory's error, 1e-6, changes over the scale of the variables.
     assert np.abs(found - expected).max() < 1e-4 * np.abs(expected).max()

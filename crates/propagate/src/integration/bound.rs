@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
 
 use super::expansion::{Equations, Workspace};
-use super::integrator::{Precision, Runner, Step, next_knot};
+use super::integrator::{Precision, Runner, Step, next_end};
 use super::series::Row;
 use crate::error::Error;
 use crate::simd::halt::going;
@@ -143,8 +143,7 @@ impl Task for MeasuredSteps<'_> {
             let Some(target) = group.last() else { continue };
             while bound < PI && runner.time != target.time {
                 going(stop).map_err(|_| Error::Stopped)?;
-                let knot = next_knot(&equations, runner.time.0, !backward);
-                let end = knot.filter(|knot| knot.0.abs() < target.time.0.abs()).unwrap_or(target.time);
+                let end = next_end(&equations, runner.time.0, target.time, backward);
                 if runner.advance(simd, (&equations, precision), end, &mut workspace).is_nan() {
                     bound = PI;
                 }
@@ -194,8 +193,7 @@ impl Task for Interpolated<'_> {
             let Some(target) = group.last() else { continue };
             while largest < LOST && runner.time != target.time {
                 going(stop).map_err(|_| Error::Stopped)?;
-                let knot = next_knot(equations, runner.time.0, !backward);
-                let end = knot.filter(|knot| knot.0.abs() < target.time.0.abs()).unwrap_or(target.time);
+                let end = next_end(equations, runner.time.0, target.time, backward);
                 if runner.advance(simd, (equations, precision), end, &mut workspace).is_nan() {
                     largest = PI;
                 }

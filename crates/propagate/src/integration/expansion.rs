@@ -44,7 +44,7 @@ impl Equations<4> {
             scene.asked_disturbing().iter().map(|body| Disturber::new(body, epoch, exponent)).collect();
         let strengths = vec![[1.0; 4]; bodies.len()];
         let factors = [(c - b) / a, (a - c) / b, (b - a) / c, 0.0];
-        let torques = Torques::new(scene, exponent).map(Arc::new);
+        let torques = Torques::new(scene, exponent, false).map(Arc::new);
         Self { factors, bodies, strengths, torques, share: [1.0; 4], scale }
     }
 
@@ -362,6 +362,21 @@ impl<const W: usize> Workspace<W> {
 }
 
 impl Workspace<4> {
+    /// Coefficient k of the direction to a body with the strength of its torque, s, as (s2, s3, s1) and (s3, s1, s2).
+    pub(super) fn direction(&self, body: usize, k: usize) -> &[Row; 2] {
+        &self.directions[body][k]
+    }
+
+    /// The rows of coefficient k of the matrix.
+    pub(super) fn matrix(&self, k: usize) -> &[Row; 3] {
+        &self.factors[k].matrix
+    }
+
+    /// The series of the torques that are polynomials.
+    pub(super) fn polynomials(&self) -> &[PolynomialSeries] {
+        &self.polynomials
+    }
+
     /// The coefficients of the motion up to an order.
     pub(super) fn coefficients(&self, order: usize) -> impl Iterator<Item = Coefficients> + '_ {
         self.attitude

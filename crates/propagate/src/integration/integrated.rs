@@ -152,11 +152,11 @@ pub(crate) fn verification_cost(scene: &Scene) -> Option<VerificationCost> {
 }
 
 /// The equations with the state and the times.
-struct Problem {
-    equations: Equations<4>,
-    attitude: Row,
-    rates: Row,
-    exponent: i32,
+pub(super) struct Problem {
+    pub(super) equations: Equations<4>,
+    pub(super) attitude: Row,
+    pub(super) rates: Row,
+    pub(super) exponent: i32,
     tolerance: f64,
     /// The largest of the secular rates.
     secular: f64,
@@ -168,7 +168,7 @@ struct Problem {
 }
 
 impl Problem {
-    fn new(scene: &Scene, reason: &str) -> Result<Self, Error> {
+    pub(super) fn new(scene: &Scene, reason: &str) -> Result<Self, Error> {
         let (start, stop) = scene.asked_span().ok_or_else(|| Error::NoSpan { reason: reason.to_owned() })?;
         let epoch = scene.state().epoch;
         let (start, stop) = (start.min(epoch), stop.max(epoch));
@@ -193,7 +193,7 @@ impl Problem {
         }
         let sources = rates_of_sources(scene, (start, stop))?;
         (fastest, lasting, secular) = (fastest.max(sources[0]), lasting.max(sources[1]), secular.max(sources[2]));
-        if let Some(torques) = Torques::new(scene, 0) {
+        if let Some(torques) = Torques::new(scene, 0, false) {
             let [rate, least] = torques.rates();
             fastest = fastest.max(rate);
             lasting = lasting.max(least);
@@ -236,7 +236,7 @@ impl Problem {
 
     /// How many steps there will be at most: by the fastest of the rates that last, and by the passages of the pericentres, where a step is e^−2 of the radius
     /// of convergence or more.
-    fn most_steps(&self) -> f64 {
+    pub(super) fn most_steps(&self) -> f64 {
         let longest = self.ends[0].0.abs().max(self.ends[1].0.abs());
         let passages: f64 = self.equations.paths().flat_map(|body| self.ends.map(|end| body.passed(end))).sum();
         10.0 + 2.0 * self.phase().max(self.secular * longest) + 8.0 * passages

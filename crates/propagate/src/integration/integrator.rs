@@ -15,7 +15,7 @@ use crate::simd::instruction_set::{InstructionSet, Task};
 /// The most steps that are kept in one direction: 600 MB.
 pub(crate) const MOST_STEPS: usize = 1 << 23;
 /// Steps between two checks of the stop flag: about 0.3 ms.
-const AT_ONCE: usize = 64;
+pub(super) const AT_ONCE: usize = 64;
 /// An integration is refused if its number of steps, extrapolated from the steps so far, exceeds the largest one by this factor. After `TYPICAL` steps the factor
 /// is 1.
 const HOPELESS: f64 = 4.0;
@@ -154,7 +154,18 @@ impl<const W: usize> Runner<W> {
         target: (f64, f64),
         workspace: &mut Workspace<W>,
     ) -> f64 {
-        let Precision { order, shrinkage } = precision;
+        let whole = self.expand(simd, (equations, precision), workspace);
+        if self.go(whole, precision.order, target, (equations, workspace)) { whole } else { f64::NAN }
+    }
+
+    /// Expands the motion. Returns the length of the step without a target.
+    #[inline(always)]
+    pub(super) fn expand<S: InstructionSet>(
+        &self,
+        simd: S,
+        (equations, Precision { order, shrinkage }): (&Equations<W>, Precision),
+        workspace: &mut Workspace<W>,
+    ) -> f64 {
         let start = Start { time: self.time, backward: self.backward, attitude: self.attitude, rates: self.rates };
         workspace.expand(simd, equations, &start, order);
         let scale = largest(&self.rates).max(equations.scale);
@@ -162,7 +173,18 @@ impl<const W: usize> Runner<W> {
             let ratio = (largest(&workspace.rates[k]) / scale).max(largest(&workspace.attitude[k]));
             -ratio.ln() / k as f64
         });
-        let whole = (before.min(last) + shrinkage).exp().min(NEAREST * workspace.radius);
+        (before.min(last) + shrinkage).exp().min(NEAREST * workspace.radius)
+    }
+
+    /// Goes on by a length, to the target at most. Returns whether the state is finite.
+    #[inline(always)]
+    pub(super) fn go(
+        &mut self,
+        whole: f64,
+        order: usize,
+        target: (f64, f64),
+        (equations, workspace): (&Equations<W>, &Workspace<W>),
+    ) -> bool {
         let left = (target.0 - self.time.0) + (target.1 - self.time.1);
         let last = whole >= left.abs();
         let length = if last { left } else { whole.copysign(left) };
@@ -170,7 +192,7 @@ impl<const W: usize> Runner<W> {
         self.account(length.abs(), order, (equations, workspace));
         self.time = if last { target } else { sum(self.time, length) };
         let state: f64 = self.attitude.iter().chain(&self.rates).sum();
-        if state.is_finite() { whole } else { f64::NAN }
+        state.is_finite()
     }
 
     #[inline(always)]
@@ -260,16 +282,14 @@ impl Task for KeptSteps<'_> {
         let Self { equations, precision, mut runner, target, stop } = self;
         let mut workspace = Workspace::new(equations);
         let (mut steps, mut coefficients) = (Vec::new(), Vec::new());
-        let (mut kept, forward) = (true, !runner.backward);
-        let mut fast = None;
+        let (mut kept, mut fast) = (true, None);
         while runner.time != target {
             if steps.len() % AT_ONCE == 0 {
                 going(stop).map_err(|_| Error::Stopped)?;
                 affordable(equations, steps.len(), runner.time, target)?;
                 fast = spun_up(&runner, target, (fast, steps.len()))?;
             }
-            let knot = next_knot(equations, runner.time.0, forward);
-            let end = knot.filter(|knot| knot.0.abs() < target.0.abs()).unwrap_or(target);
+            let end = next_end(equations, runner.time.0, target, runner.backward);
             steps.push(runner.step());
             let length = runner.advance(simd, (equations, precision), end, &mut workspace);
             // A table whose polynomial meets the origin leaves no number.
@@ -288,15 +308,26 @@ impl Task for KeptSteps<'_> {
     }
 }
 
-/// The nearest time at which the series of a body ends.
-pub(super) fn next_knot<const W: usize>(equations: &Equations<W>, time: f64, forward: bool) -> Option<(f64, f64)> {
-    let knots = equations.paths().filter_map(|body| body.next_knot(time, forward));
-    knots.min_by(|one, other| one.0.abs().total_cmp(&other.0.abs()))
+/// The end of the next step at most: the target, or the nearest time at which the series of a body ends.
+pub(super) fn next_end<const W: usize>(
+    equations: &Equations<W>,
+    time: f64,
+    target: (f64, f64),
+    backward: bool,
+) -> (f64, f64) {
+    let knots = equations.paths().filter_map(|body| body.next_knot(time, !backward));
+    let nearest = knots.min_by(|one, other| one.0.abs().total_cmp(&other.0.abs()));
+    nearest.filter(|knot| knot.0.abs() < target.0.abs()).unwrap_or(target)
 }
 
 /// Whether the steps so far leave the whole within the bound. Some of the steps are due to the rotation, and others to the passage of each body. The number of
 /// each kind grows at least by the least of the factors by which they grow.
-fn affordable(equations: &Equations<4>, steps: usize, now: (f64, f64), target: (f64, f64)) -> Result<(), Error> {
+pub(super) fn affordable(
+    equations: &Equations<4>,
+    steps: usize,
+    now: (f64, f64),
+    target: (f64, f64),
+) -> Result<(), Error> {
     // A circle has 0/0 here, which is no minimum.
     let growth = equations.paths().map(|body| body.passed(target) / body.passed(now));
     let growth = growth.fold(target.0 / now.0, f64::min);

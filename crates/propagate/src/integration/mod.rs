@@ -8,6 +8,7 @@
 //! Imports errors, numerics, simd, orbit, torque and input.
 
 mod bound;
+mod conic;
 pub(crate) mod dense;
 mod disturber;
 mod expansion;
@@ -16,6 +17,7 @@ pub(crate) mod integrator;
 mod interpolation;
 mod series;
 mod torques;
+pub(crate) mod variation;
 
 #[cfg(test)]
 mod tests;

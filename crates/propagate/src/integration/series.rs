@@ -19,6 +19,9 @@ pub(super) type Scalars = [f64; ROWS];
 /// Coefficients of attitude and rates of one order.
 pub(super) type Coefficients = [f64; 7];
 
+/// The power of the distance in the series of a body's gravity gradient.
+pub(super) const GRAVITY: f64 = -2.5;
+
 /// A series of zeros.
 pub(super) const ZERO: Series = [[0.0; 4]; ROWS];
 

@@ -22,6 +22,9 @@ pub(super) struct Torques {
     polynomials: Vec<Recipe>,
 }
 
+/// Coefficients and places of monomials; no place is that of the constant 1.
+type Sum = Vec<(f64, Option<usize>)>;
+
 /// How the series of one polynomial torque are computed.
 #[derive(Clone, Debug)]
 struct Recipe {
@@ -35,6 +38,8 @@ struct Recipe {
     /// Coefficients and places of the monomials of each component.
     sums: [Vec<(f64, usize)>; 3],
     constants: Vector3<f64>,
+    /// The derivatives of the components with respect to each variable, if they were asked for.
+    slopes: Vec<[Sum; 3]>,
     /// The largest and the smallest acceleration at the rates of the epoch.
     size: [f64; 2],
     /// Rounding errors of a term, of its factors and of the powers of the distances, over those of a product of two.
@@ -62,8 +67,8 @@ pub(super) struct PolynomialSeries {
 }
 
 impl Torques {
-    /// `None` for a scene without such torques.
-    pub(super) fn new(scene: &Scene, exponent: i32) -> Option<Self> {
+    /// `None` for a scene without such torques. `slopes`: with the derivatives of the polynomials.
+    pub(super) fn new(scene: &Scene, exponent: i32, slopes: bool) -> Option<Self> {
         if scene.asked_torques().is_empty() {
             return None;
         }
@@ -75,7 +80,9 @@ impl Torques {
                 Torque::Damping(rows) => linear -= Matrix3::from_fn(|i, k| rows[i][k]),
                 // −ω × h = h × ω.
                 Torque::Rotor(momentum) => linear += Vector3::from(*momentum).cross_matrix(),
-                Torque::Polynomial(torque) => polynomials.push(Recipe::new(torque, &inverse, scene, exponent)),
+                Torque::Polynomial(torque) => {
+                    polynomials.push(Recipe::new(torque, &inverse, (scene, exponent), slopes))
+                }
             }
         }
         let unit = |part: f64| scaled(part, -exponent);
@@ -163,6 +170,17 @@ impl Torques {
         radius
     }
 
+    /// The derivatives of the angular accelerations with respect to a rotation about the body's axes and to the rates, up to an order.
+    pub(super) fn derivatives(&self, order: usize, series: &[PolynomialSeries]) -> [Vec<Matrix3<f64>>; 2] {
+        let mut by_angle = vec![Matrix3::zeros(); order];
+        let mut by_rate = by_angle.clone();
+        by_rate[0] = self.linear;
+        for (recipe, series) in self.polynomials.iter().zip(series) {
+            recipe.add_derivatives(order, series, [&mut by_angle, &mut by_rate]);
+        }
+        [by_angle, by_rate]
+    }
+
     /// Coefficient k of the angular accelerations of one state, from the coefficients 0 to k of its rates and of the rows of its matrix.
     pub(super) fn coefficient(
         &self,
@@ -203,7 +221,7 @@ impl SourceSeries {
 }
 
 impl Recipe {
-    fn new(torque: &PolynomialTorque, inverse: &Matrix3<f64>, scene: &Scene, exponent: i32) -> Self {
+    fn new(torque: &PolynomialTorque, inverse: &Matrix3<f64>, (scene, exponent): (&Scene, i32), slopes: bool) -> Self {
         let epoch = scene.state().epoch;
         let sources = torque.sources().iter().map(|source| SourceSeries::new(source, (epoch, exponent))).collect();
         let turn = torque.turn().to_rotation_matrix().into_inner();
@@ -215,6 +233,7 @@ impl Recipe {
             products: Vec::new(),
             sums: std::array::from_fn(|_| Vec::new()),
             constants: Vector3::zeros(),
+            slopes: Vec::new(),
             sources,
             size: [0.0; 2],
             roundings: 0.0,
@@ -239,7 +258,54 @@ impl Recipe {
         let falls = torque.sources().iter().map(|source| falls(source, scene));
         let falls = falls.fold([1.0; 2], |product, falls| [product[0] * falls[0], product[1] * falls[1]]);
         recipe.size = falls.map(|fall| recipe.back.norm() * size * fall);
+        if slopes {
+            recipe.add_slopes(torque, exponent, &mut known);
+        }
         recipe
+    }
+
+    /// Adds the derivatives of the components with respect to each variable.
+    fn add_slopes(&mut self, torque: &PolynomialTorque, exponent: i32, known: &mut Vec<Vec<u32>>) {
+        for variable in 0..self.variables() {
+            let slope = torque.terms().each_ref().map(|terms| {
+                let terms = terms.iter().filter(|(_, exponents)| exponents[variable] > 0);
+                let term = |(coefficient, exponents): &(f64, Vec<u32>)| {
+                    let of_rates: u32 = exponents[exponents.len() - 3..].iter().sum();
+                    let power = f64::from(exponents[variable]);
+                    let mut rest = exponents.clone();
+                    rest[variable] -= 1;
+                    (power * scaled(*coefficient, exponent * of_rates as i32), self.place(&rest, known))
+                };
+                terms.map(term).collect()
+            });
+            self.slopes.push(slope);
+        }
+    }
+
+    /// Adds the derivatives of the angular accelerations of the first state with respect to a rotation about the body's axes and to the rates, up to an order.
+    fn add_derivatives(&self, order: usize, series: &PolynomialSeries, [by_angle, by_rate]: [&mut [Matrix3<f64>]; 2]) {
+        let nodes = &series.nodes[0];
+        let value = |sum: &Sum, k: usize| -> f64 {
+            let constant = if k == 0 { 1.0 } else { 0.0 };
+            sum.iter().map(|(c, place)| c * place.map_or(constant, |place| nodes[place][k])).sum()
+        };
+        let slope = |sum: &Sum| -> Scalars {
+            let own: Scalars = std::array::from_fn(|k| if k < order { value(sum, k) } else { 0.0 });
+            std::array::from_fn(|k| if k < order { product(&own, &series.fall, k) } else { 0.0 })
+        };
+        let slopes: Vec<[Scalars; 3]> = self.slopes.iter().map(|sums| sums.each_ref().map(slope)).collect();
+        // The columns of three variables.
+        let matrix = |first: usize, k: usize| Matrix3::from_fn(|row, column| slopes[first + column][row][k]);
+        let sources = series.places.len();
+        for k in 0..order {
+            by_rate[k] += self.back * matrix(3 * sources, k) * self.turn;
+            for source in 0..sources {
+                for j in 0..=k {
+                    let direction = Vector3::from_fn(|axis, _| nodes[3 * source + axis][k - j]);
+                    by_angle[k] += self.back * matrix(3 * source, j) * direction.cross_matrix() * self.turn;
+                }
+            }
+        }
     }
 
     fn variables(&self) -> usize {

@@ -69,6 +69,11 @@ impl<'a> Batch<'a> {
         Self { stop, ..self }
     }
 
+    /// The flag that ends the evaluation.
+    pub(crate) fn stop(&self) -> &AtomicBool {
+        self.stop
+    }
+
     /// Writes the attitudes [x, y, z, w] at `times` to `out`.
     ///
     /// # Errors

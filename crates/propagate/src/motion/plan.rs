@@ -254,12 +254,13 @@ impl Plan {
     /// - "closed": the closed form (theory §12).
     /// - "series": power series in time. They replace the closed form where it cancels: next to a sphere, to the separatrix and to the middle axis, and for a body
     ///   from a tensor also with nearly equal moments.
-    /// - "differences": differences of fourth order, for a scene with an orbit and for an integrated motion. Their error is some 1e-9 of the largest derivative.
+    /// - "variational": variational equations, integrated from the epoch, for a scene with a torque. Farther from the epoch of an averaged motion than 2,500 steps, some
+    ///   200 rotations, they are differences of fourth order, whose error is some 1e-9 of the largest derivative.
     ///
     /// It is `None` on the separatrix, where the frequencies have no derivatives.
     pub fn partials(&self) -> Option<&'static str> {
         match (self.mode, self.method, self.gradient) {
-            (_, Method::Integrated | Method::Libration, _) | (_, _, Some(_)) => Some("differences"),
+            (_, Method::Integrated | Method::Libration, _) | (_, _, Some(_)) => Some("variational"),
             (Mode::Separatrix, _, None) => None,
             _ if self.expanded => Some("series"),
             _ => Some("closed"),

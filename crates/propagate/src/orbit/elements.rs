@@ -209,6 +209,35 @@ impl Orbit {
         Ok(Self { semi_major_axis: Some(length), ..self })
     }
 
+    /// The orbit with a small change of an element, in the order of [`Orbit::elements`]. An eccentricity below 0 is that of the same ellipse from its apocentre.
+    pub(crate) fn displaced(&self, element: usize, step: f64) -> Self {
+        let mut orbit = *self;
+        let elements: [&mut f64; 6] = [
+            &mut orbit.mean_motion,
+            &mut orbit.eccentricity,
+            &mut orbit.time_of_pericentre,
+            &mut orbit.inclination,
+            &mut orbit.node,
+            &mut orbit.argument_of_pericentre,
+        ];
+        if let Some(value) = elements.into_iter().nth(element) {
+            *value += step;
+        }
+        if orbit.eccentricity < 0.0 {
+            let half = PI / orbit.mean_motion;
+            orbit.eccentricity = -orbit.eccentricity;
+            orbit.time_of_pericentre -= half;
+            orbit.node -= half * orbit.node_rate;
+            orbit.argument_of_pericentre += PI - half * orbit.pericentre_rate;
+        }
+        orbit
+    }
+
+    /// The orbit of a body with another attraction.
+    pub(crate) fn attracting(&self, attraction: f64) -> Self {
+        Self { attraction: Some(attraction), mass_fraction: 1.0, ..*self }
+    }
+
     /// The given semi-major axis \[length\], or `None`.
     pub fn asked_semi_major_axis(&self) -> Option<f64> {
         self.semi_major_axis

@@ -1,57 +1,54 @@
-//! Derivatives of a motion under a gravity gradient, or of an integrated motion, from differences of solved motions.
+//! Derivatives of an averaged motion far from its epoch, from differences of solved motions.
 //!
 //! They are central differences of fourth order. A step turns the body by [`STEP`] at the most distant time. The truncation error is STEP⁴/30 of the largest
-//! derivative, 3e-10. The rounding error of a solution, 1e-13, divided by the step is as large. Derivatives of the mean motion alone would lack those of the
-//! short-period corrections, which have the size of the torque. One call solves 37 motions for any number of times, 49 for the
-//! parameters of a body with a tensor.
+//! derivative, 3e-10. The rounding error of a solution, 1e-13, divided by the step is as large; for an element of the orbit it is larger by one over the effect of the
+//! torque. Derivatives of the mean motion alone would lack those of the short-period corrections, which have the size of the torque. One call solves four motions for
+//! each column, for any number of times.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::error::Error;
 use crate::input::options::Method;
 use crate::input::scene::Scene;
 use crate::input::state::State;
-use crate::input::torque::rotors;
+use crate::integration::variation::{Column, Outputs};
 use crate::motion::solved::Motion;
+use crate::orbit::disturbing_body::DisturbingBody;
+use crate::orbit::elements::Orbit;
 
-use super::derivatives::Derivatives;
-
-/// Angle by which a step turns the body at the most distant time \[rad\].
+/// Angle by which a step turns the body or its orbit at the most distant time \[rad\].
 const STEP: f64 = 1e-2;
-/// Largest step relative to the angular velocity or the moment.
+/// Largest step relative to the angular velocity, the moment, the mean motion or the attraction, and largest step of the eccentricity.
 const LARGEST: f64 = 1e-3;
 /// Tolerance of the solved motions, so that dropped terms are negligible relative to a step \[rad\].
 const TOLERANCE: f64 = 1e-13;
 /// Positions and weights of the differences: [8 f(h) − 8 f(−h) − f(2h) + f(−2h)]/12h.
 const STENCIL: [(f64, f64); 4] = [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)];
 
-/// Computes derivatives at times that are valid for the motion.
-pub(super) fn fill<const N: usize>(
-    motion: &Motion,
-    times: &[f64],
-    attitudes: &mut [Derivatives<N>],
-    rates: &mut [Derivatives<N>],
-) -> Result<(), Error> {
-    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance()));
+/// Writes the derivatives at times that are valid for the motion, in the axes of its scene.
+pub(super) fn fill(motion: &Motion, columns: &[Column], times: &[f64], outputs: Outputs<'_>) -> Result<(), Error> {
+    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance())).method(Method::Closed);
     let scene = match motion.plan.averaging() {
-        Some(averaging) => scene.averaging(averaging).method(Method::Closed),
-        None => scene.method(Method::Integrated),
+        Some(averaging) => scene.averaging(averaging),
+        None => scene,
     };
-    let steps = steps::<N>(motion, times);
     let mut samples = Samples::new(times.len());
     samples.evaluate(&scene, times)?;
     let origins = samples.attitudes.clone();
-    attitudes.fill([[0.0; N]; 3]);
-    rates.fill([[0.0; N]; 3]);
-    for (parameter, step) in steps.into_iter().enumerate() {
+    let [attitudes, rates] = outputs;
+    attitudes.fill(0.0);
+    rates.fill(0.0);
+    for (column, parameter) in columns.iter().enumerate() {
+        let step = step(&scene, parameter, times);
         for (place, weight) in STENCIL {
             samples.evaluate(&changed(&scene, parameter, place * step), times)?;
             let factor = weight / (12.0 * step);
             for (index, origin) in origins.iter().enumerate() {
                 let turned = rotation_vector(*origin, samples.attitudes[index]);
                 for row in 0..3 {
-                    attitudes[index][row][parameter] += factor * turned[row];
-                    rates[index][row][parameter] += factor * samples.rates[index][row];
+                    let entry = (3 * index + row) * columns.len() + column;
+                    attitudes[entry] += factor * turned[row];
+                    rates[entry] += factor * samples.rates[index][row];
                 }
             }
         }
@@ -75,45 +72,58 @@ impl Samples {
     }
 }
 
-/// The step of each parameter.
-fn steps<const N: usize>(motion: &Motion, times: &[f64]) -> [f64; N] {
-    let scene = &motion.scene;
+/// The step of a parameter.
+fn step(scene: &Scene, parameter: &Column, times: &[f64]) -> f64 {
     let State { epoch, angular_velocity, .. } = *scene.state();
     let farthest = times.iter().fold(0.0_f64, |most, time| most.max((time - epoch).abs()));
-    // The rates of a body at rest need a step that is not 0.
-    let least = scene.body().moments().into_iter().fold(f64::INFINITY, f64::min);
-    // Torques may spin the body up, and rotors may turn it faster than it rotates at the epoch.
-    let spun = match scene.asked_torques() {
-        [] => 0.0,
-        torques => motion.plan.fastest + rotors(torques).norm() / least,
+    let rate = angular_velocity.norm();
+    let part = |rate: f64| LARGEST.min(STEP / (rate * farthest));
+    let orbit = |body: usize| match &scene.asked_disturbing()[body] {
+        DisturbingBody::Orbit(orbit) => Some(orbit),
+        DisturbingBody::Tabulated(_) => None,
     };
-    let rate = match angular_velocity.norm().max(spun) {
-        0.0 => STEP / farthest.max(f64::MIN_POSITIVE),
-        rate => rate,
-    };
-    let part = LARGEST.min(STEP / (rate * farthest));
-    let moments = scene.body().moments();
-    std::array::from_fn(|parameter| match parameter {
-        0..3 => STEP,
-        3..6 => part * rate,
-        6..9 => part * moments[parameter - 6],
-        _ => part * moments.into_iter().fold(0.0, f64::max),
-    })
+    match parameter {
+        Column::Attitude(_) => STEP,
+        Column::AngularVelocity(_) => part(rate) * rate,
+        Column::Inertia(change) => {
+            let moments = scene.body().moments();
+            let relative = Matrix3::from_fn(|i, j| change[(i, j)].abs() / (moments[i] * moments[j]).sqrt());
+            part(rate) / relative.max()
+        }
+        Column::Element(body, element) => orbit(*body).map_or(STEP, |orbit| {
+            let (motion, e) = (orbit.mean_motion(), orbit.eccentricity());
+            match element {
+                0 => part(motion) * motion,
+                1 => LARGEST.min(LARGEST * (1.0 - e).abs()),
+                2 => STEP / motion,
+                _ => STEP,
+            }
+        }),
+        Column::Attraction(body) => orbit(*body).map_or(STEP, |orbit| LARGEST * orbit.strength()),
+    }
 }
 
 /// The scene with one parameter changed.
-fn changed(scene: &Scene, parameter: usize, step: f64) -> Scene {
-    let (mut state, mut tensor) = (*scene.state(), [0.0; 6]);
+fn changed(scene: &Scene, parameter: &Column, step: f64) -> Scene {
+    let (mut state, mut change) = (*scene.state(), Matrix3::zeros());
     match parameter {
-        0..3 => {
-            let mut axis = Vector3::zeros();
-            axis[parameter] = step;
-            state.attitude *= UnitQuaternion::from_scaled_axis(axis);
-        }
-        3..6 => state.angular_velocity[parameter - 3] += step,
-        _ => tensor[parameter - 6] = step,
+        Column::Attitude(axis) => state.attitude *= UnitQuaternion::from_scaled_axis(axis * step),
+        Column::AngularVelocity(direction) => state.angular_velocity += direction * step,
+        Column::Inertia(direction) => change = direction * step,
+        Column::Element(body, element) => return with_orbit(scene, *body, |orbit| orbit.displaced(*element, step)),
+        Column::Attraction(body) => return with_orbit(scene, *body, |orbit| orbit.attracting(orbit.strength() + step)),
     }
-    scene.starting_from(scene.body().displaced(tensor), state)
+    let elements = [change.m11, change.m22, change.m33, change.m12, change.m13, change.m23];
+    scene.starting_from(scene.body().displaced(elements), state)
+}
+
+/// The scene with another orbit of one of its bodies.
+fn with_orbit(scene: &Scene, body: usize, change: impl Fn(&Orbit) -> Orbit) -> Scene {
+    let mut bodies = scene.asked_disturbing().to_vec();
+    if let DisturbingBody::Orbit(orbit) = &mut bodies[body] {
+        *orbit = change(orbit);
+    }
+    scene.clone().disturbing(bodies)
 }
 
 /// The rotation vector from one attitude to a nearby one, in body components.

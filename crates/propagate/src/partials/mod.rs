@@ -6,18 +6,23 @@
 //! dt. Set-up takes some microseconds. Accuracy: 1e-14 of the largest derivative over the smaller of Q1, the minimum of cos²J, and C/B − 1. Q1 is small next to the
 //! separatrix, C/B − 1 next to a sphere. Where one of them is below 1e-4, power series in time replace the closed form (`expansion.rs`).
 //!
-//! For a body with an inertia tensor there are twelve parameters: the six elements of the tensor replace the moments (`tensor.rs`).
+//! For a body with an inertia tensor there are twelve parameters: the six elements of the tensor replace the moments (`tensor.rs`). Under a torque the derivatives,
+//! also with respect to the orbits (`parameters.rs`), come from variational equations (`forced.rs`).
 //!
 //! Imports errors, numerics, simd, input, torque_free, motion and solve.
 
 mod constants;
 mod derivatives;
+#[cfg(feature = "torques")]
 mod differences;
 mod displacement;
 mod evaluate;
 mod expansion;
+#[cfg(feature = "torques")]
+mod forced;
 mod integral;
 mod matrices;
+mod parameters;
 mod sources;
 mod steady;
 mod tensor;
@@ -34,6 +39,7 @@ use crate::torque_free::polhode::Polhode;
 use constants::Setting;
 pub use derivatives::{Derivatives, INERTIA_PARAMETERS, PARAMETERS, Partials};
 use evaluate::Target;
+pub use parameters::Parameter;
 use sources::Steadily;
 use steady::Varied;
 
@@ -150,9 +156,6 @@ impl Motion {
         attitudes: &mut [Derivatives],
         rates: &mut [Derivatives],
     ) -> Result<(), Error> {
-        if matches!(self.trajectory, Trajectory::Forced(_)) {
-            return differences::fill(self, &self.in_scene(epoch, times), attitudes, rates);
-        }
         let Some(polhode) = Polhode::new(self.scene.body(), self.scene.state()) else {
             steady::at_rest(times, epoch, attitudes, rates);
             return Ok(());
@@ -188,6 +191,10 @@ impl Batch<'_> {
         attitudes: &mut [Derivatives],
         rates: &mut [Derivatives],
     ) -> Result<(), Error> {
+        #[cfg(feature = "torques")]
+        if let Trajectory::Forced(_) = self.motion().trajectory {
+            return self.forced_matrices(times, attitudes, rates);
+        }
         let part = |times: &[f64], attitudes: &mut [_], rates: &mut [_]| {
             self.motion().partials_since(self.epoch(), times, attitudes, rates)
         };
@@ -204,6 +211,10 @@ impl Batch<'_> {
         attitudes: &mut [Derivatives<INERTIA_PARAMETERS>],
         rates: &mut [Derivatives<INERTIA_PARAMETERS>],
     ) -> Result<(), Error> {
+        #[cfg(feature = "torques")]
+        if let Trajectory::Forced(_) = self.motion().trajectory {
+            return self.forced_matrices(times, attitudes, rates);
+        }
         let part = |times: &[f64], attitudes: &mut [_], rates: &mut [_]| {
             self.motion().inertia_partials_since(self.epoch(), times, attitudes, rates)
         };

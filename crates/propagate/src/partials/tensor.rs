@@ -12,7 +12,7 @@ use super::derivatives::{Derivatives, INERTIA_PARAMETERS, PARAMETERS};
 use super::displacement::{Displacement, ELEMENTS, Response, Writer};
 use super::evaluate::Target;
 use super::steady::Varied;
-use super::{differences, expansion, steady};
+use super::{expansion, steady};
 use crate::error::Error;
 use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
@@ -46,9 +46,6 @@ fn about_principal_axes(
     times: &[f64],
     (attitudes, rates): Output<'_>,
 ) -> Result<(), Error> {
-    if matches!(motion.trajectory, Trajectory::Forced(_)) {
-        return differences::fill(motion, &motion.in_scene(epoch, times), attitudes, rates);
-    }
     let Some(polhode) = Polhode::new(motion.scene.body(), motion.scene.state()) else {
         steady::at_rest(times, epoch, attitudes, rates);
         return Ok(());

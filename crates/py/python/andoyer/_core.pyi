@@ -369,8 +369,12 @@ class Motion:
         """Evaluates the Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1)."""
     def rotation(self, times: ArrayLike) -> Rotation:
         """Evaluates attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. This method imports SciPy."""
-    def partials(self, times: ArrayLike) -> Partials:
-        """Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12)."""
+    def partials(
+        self,
+        times: ArrayLike,
+        with_respect_to: str | tuple[str, int] | Sequence[str | tuple[str, int]] = ("attitude", "angular_velocity", "moments"),
+    ) -> Partials:
+        """Evaluates the derivatives of attitude and angular velocity with respect to the initial state, the moments, and the orbits of disturbing bodies (theory §12)."""
     def scene_at(self, time: float | Any) -> Scene:
         """The scene of the state at a time: the same body, disturbing bodies and options, with this time as the epoch."""
     def verify(self, span: ArrayLike | None = None, samples: int = 64, *, tolerance: float | None = None) -> Verification:
@@ -466,8 +470,8 @@ class Plan:
     def first_neglected(self) -> float:
         """The first neglected term of the gravity gradient, in rad: a short-period term of second order in the torque, which no level has, or one of first order that was dropped; 0 without an orbit."""
     @property
-    def partials(self) -> Literal["closed", "series", "differences"] | None:
-        """The method of `Motion.partials`: "closed" (theory §12); "series", power series in time where the closed form cancels: next to a sphere, to the separatrix and to the middle axis, and for a body from a tensor also with nearly equal moments; "differences" of fourth order, with an error of some 1e-9 of the largest derivative, for a scene with an orbit and for an integrated motion; or None on the separatrix, where the derivatives do not exist."""
+    def partials(self) -> Literal["closed", "series", "variational"] | None:
+        """The method of `Motion.partials`: "closed" (theory §12); "series", power series in time where the closed form cancels: next to a sphere, to the separatrix and to the middle axis, and for a body from a tensor also with nearly equal moments; "variational" equations, integrated from the epoch, for a scene with a torque (farther from the epoch of an averaged motion than 2,500 steps, some 200 rotations, differences of fourth order, with an error of some 1e-9 of the largest derivative); or None on the separatrix, where the derivatives do not exist."""
     @property
     def skipped(self) -> list[str]:
         """The steps that this scene did not need, with the reasons: a list of str."""
@@ -569,10 +573,13 @@ class Partials:
         """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n)."""
     @property
     def attitude(self) -> _Array:
-        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9) or (m, n, 3, 12)."""
+        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, k) for k parameters, of an ensemble (m, n, 3, k)."""
     @property
     def angular_velocity(self) -> _Array:
-        """Derivatives of the angular velocity in body components, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9) or (m, n, 3, 12)."""
+        """Derivatives of the angular velocity in body components, shape (n, 3, k) for k parameters, of an ensemble (m, n, 3, k)."""
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """The names of the columns, in their order."""
     def __len__(self) -> int: ...
 
 @final

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::Error as Propagation;
 use andoyer_propagate::ensemble::{MembersRun, Outcome};
-use andoyer_propagate::partials::Derivatives;
+use andoyer_propagate::partials::{Derivatives, INERTIA_PARAMETERS, Parameter};
 use pyo3::prelude::*;
 
 use super::{Array, Ensemble, LONG};
@@ -62,7 +62,8 @@ impl Ensemble {
             interruptible(py, times.long_partials(), error::propagation, evaluate)?
         };
         error::warn_of_tolerance(py, outcome.missed_tolerance())?;
-        Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
+        let names = Parameter::names_of_state_and_body(N == INERTIA_PARAMETERS);
+        Ok(Partials::new([copy, attitude, rates].map(Bound::unbind), names))
     }
 
     /// What is found for every member when all are solved.

@@ -43,7 +43,7 @@ def attitudes(
     """Fits the state of a body, and its moments, to measured attitudes.
 
     The residuals are the rotation vectors about body axes from model to measured attitude, divided by their standard deviations. `scipy.optimize.least_squares` minimizes their sum of squares with
-    the derivatives of `Motion.partials` (theory §12; with an orbit by differences). Attitudes determine the moments only up to a common factor; the fit keeps the product of the
+    the derivatives of `Motion.partials` (theory §12). Attitudes determine the moments only up to a common factor; the fit keeps the product of the
     given moments, or the trace of the tensor. Times may be in any order. The function needs SciPy, which ``pip install scipy`` installs.
 
     Parameters

@@ -1,0 +1,91 @@
+//! Derivatives of motions under torques: by the variational equations of an integration, or, far from the epoch of an averaged motion, by differences.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::derivatives::{Derivatives, PARAMETERS};
+use super::differences;
+use super::displacement::ELEMENTS;
+use super::parameters::Parameter;
+use crate::error::Error;
+use crate::integration::variation::{self, Column, Outputs};
+use crate::motion::batch::Batch;
+use crate::motion::solved::Motion;
+
+/// Beyond so many steps the derivatives of an averaged motion are differences of solved motions, which take as long for any span: 8 ms for nine parameters.
+const MOST_STEPS: f64 = 2.5e3;
+
+impl Batch<'_> {
+    /// The derivatives of a motion under torques with respect to chosen parameters, (n, 3, columns).
+    pub(super) fn forced(&self, parameters: &[Parameter], times: &[f64], outputs: Outputs<'_>) -> Result<(), Error> {
+        let by_elements = self.motion().scene().body().has_tensor();
+        self.by_columns(&columns(self.motion(), parameters, by_elements), times, outputs)
+    }
+
+    /// The derivatives of a motion under torques as matrices, with respect to the state and to the moments, N = 9, or to the elements of the tensor, N = 12.
+    pub(super) fn forced_matrices<const N: usize>(
+        &self,
+        times: &[f64],
+        attitudes: &mut [Derivatives<N>],
+        rates: &mut [Derivatives<N>],
+    ) -> Result<(), Error> {
+        let parameters = [Parameter::Attitude, Parameter::AngularVelocity, Parameter::Moments];
+        let columns = columns(self.motion(), &parameters, N != PARAMETERS);
+        let outputs = [attitudes, rates].map(|matrices| matrices.as_flattened_mut().as_flattened_mut());
+        self.by_columns(&columns, times, outputs)
+    }
+
+    fn by_columns(&self, columns: &[Column], times: &[f64], mut outputs: Outputs<'_>) -> Result<(), Error> {
+        let motion = self.motion();
+        motion.valid(times, self.epoch())?;
+        let times = motion.in_scene(self.epoch(), times);
+        let ends = [f64::min, f64::max].map(|end| times.iter().copied().fold(motion.scene.state().epoch, end));
+        let scene = motion.scene.clone().span(ends[0], ends[1]);
+        let own = outputs.each_mut().map(|output| &mut **output);
+        if motion.plan.averaging().is_some() && variation::steps(&scene) > MOST_STEPS {
+            differences::fill(motion, columns, &times, own)?;
+        } else {
+            variation::fill(&scene, columns, &times, own, self.stop())?;
+        }
+        if let Some(given) = &motion.given {
+            let axes = given.turn.to_rotation_matrix().into_inner();
+            outputs.into_iter().for_each(|output| turn(&axes, columns.len(), output));
+        }
+        Ok(())
+    }
+}
+
+/// The columns of some parameters in the axes of the scene. `by_elements`: those of the body are the elements of its tensor about the user's axes.
+fn columns(motion: &Motion, parameters: &[Parameter], by_elements: bool) -> Vec<Column> {
+    let axes =
+        motion.given.as_ref().map_or_else(Matrix3::identity, |given| given.turn.to_rotation_matrix().into_inner());
+    let axis = |k: usize| axes.row(k).transpose();
+    let element = |(i, j): (usize, usize)| {
+        let product = axis(i) * axis(j).transpose();
+        if i == j { product } else { product + product.transpose() }
+    };
+    let mut columns = Vec::new();
+    for parameter in parameters {
+        match *parameter {
+            Parameter::Attitude => columns.extend((0..3).map(|k| Column::Attitude(axis(k)))),
+            Parameter::AngularVelocity => columns.extend((0..3).map(|k| Column::AngularVelocity(axis(k)))),
+            Parameter::Moments if by_elements => columns.extend(ELEMENTS.map(|place| Column::Inertia(element(place)))),
+            Parameter::Moments => {
+                let moment = |k: usize| Column::Inertia(Matrix3::from_diagonal(&Vector3::ith(k, 1.0)));
+                columns.extend((0..3).map(moment));
+            }
+            Parameter::Orbit(body) => columns.extend((0..6).map(|element| Column::Element(body, element))),
+            Parameter::Attraction(body) => columns.push(Column::Attraction(body)),
+        }
+    }
+    columns
+}
+
+/// Turns the vectors of all columns from the scene's axes to the user's.
+fn turn(axes: &Matrix3<f64>, columns: usize, output: &mut [f64]) {
+    for rows in output.chunks_mut(3 * columns) {
+        for column in 0..columns {
+            let turned = axes * Vector3::from_fn(|axis, _| rows[axis * columns + column]);
+            (0..3).for_each(|axis| rows[axis * columns + column] = turned[axis]);
+        }
+    }
+}
