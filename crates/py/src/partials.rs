@@ -11,6 +11,8 @@ use crate::error;
 use crate::samples::counted;
 
 type Array = Py<PyArrayDyn<f64>>;
+/// The fields in their order.
+type Pickled = (Array, Array, Array, Vec<String>);
 
 /// Derivatives of attitude and angular velocity at given times, from `Motion.partials` and `Ensemble.partials`.
 ///
@@ -125,7 +127,7 @@ impl Partials {
         Self::new([times, attitude, angular_velocity], names)
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Array, Array, Array, Vec<String>))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Pickled)> {
         let (py, partials) = (slf.py(), slf.get());
         let [times, attitude, rates] =
             [&partials.times, &partials.attitude, &partials.angular_velocity].map(|array| array.clone_ref(py));

@@ -23,7 +23,7 @@ pub(super) struct Torques {
 }
 
 /// Coefficients and places of monomials; no place is that of the constant 1.
-type Sum = Vec<(f64, Option<usize>)>;
+type Slope = Vec<(f64, Option<usize>)>;
 
 /// How the series of one polynomial torque are computed.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ struct Recipe {
     sums: [Vec<(f64, usize)>; 3],
     constants: Vector3<f64>,
     /// The derivatives of the components with respect to each variable, if they were asked for.
-    slopes: Vec<[Sum; 3]>,
+    slopes: Vec<[Slope; 3]>,
     /// The largest and the smallest acceleration at the rates of the epoch.
     size: [f64; 2],
     /// Rounding errors of a term, of its factors and of the powers of the distances, over those of a product of two.
@@ -285,11 +285,11 @@ impl Recipe {
     /// Adds the derivatives of the angular accelerations of the first state with respect to a rotation about the body's axes and to the rates, up to an order.
     fn add_derivatives(&self, order: usize, series: &PolynomialSeries, [by_angle, by_rate]: [&mut [Matrix3<f64>]; 2]) {
         let nodes = &series.nodes[0];
-        let value = |sum: &Sum, k: usize| -> f64 {
+        let value = |sum: &Slope, k: usize| -> f64 {
             let constant = if k == 0 { 1.0 } else { 0.0 };
             sum.iter().map(|(c, place)| c * place.map_or(constant, |place| nodes[place][k])).sum()
         };
-        let slope = |sum: &Sum| -> Scalars {
+        let slope = |sum: &Slope| -> Scalars {
             let own: Scalars = std::array::from_fn(|k| if k < order { value(sum, k) } else { 0.0 });
             std::array::from_fn(|k| if k < order { product(&own, &series.fall, k) } else { 0.0 })
         };

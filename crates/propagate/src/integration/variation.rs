@@ -37,13 +37,13 @@ const ERROR: f64 = 1e-17;
 /// Columns of a block.
 const LANES: usize = 8;
 
-type Lanes = StateLanes<LANES>;
+type ColumnLanes = StateLanes<LANES>;
 /// A vector for each column of a block.
-type Vectors = [Lanes; 3];
+type Vectors = [ColumnLanes; 3];
 
 /// A parameter, in the axes of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Column {
+pub(crate) enum ForcedColumn {
     /// A rotation of the initial attitude about this axis.
     Attitude(Vector3<f64>),
     /// A change of the initial angular velocity along this vector.
@@ -57,7 +57,7 @@ pub(crate) enum Column {
 }
 
 /// The derivatives of attitude and rates, (n, 3, columns) each.
-pub(crate) type Outputs<'a> = [&'a mut [f64]; 2];
+pub(crate) type PartialsRows<'a> = [&'a mut [f64]; 2];
 
 /// How many steps the motion of a scene takes at most over its span; infinite if it cannot be integrated.
 pub(crate) fn steps(scene: &Scene) -> f64 {
@@ -70,9 +70,9 @@ pub(crate) fn steps(scene: &Scene) -> f64 {
 /// Those of an integration over the span, but for its error bound.
 pub(crate) fn fill(
     scene: &Scene,
-    columns: &[Column],
+    columns: &[ForcedColumn],
     times: &[f64],
-    mut outputs: Outputs<'_>,
+    mut outputs: PartialsRows<'_>,
     stop: &AtomicBool,
 ) -> Result<(), Error> {
     let mut problem = Problem::new(scene, "")?;
@@ -109,11 +109,11 @@ struct Variation<'a> {
     equations: &'a Equations<4>,
     scene: &'a Scene,
     exponent: i32,
-    columns: &'a [Column],
+    columns: &'a [ForcedColumn],
     runner: Runner<4>,
     backward: bool,
     times: &'a [(usize, (f64, f64))],
-    outputs: Outputs<'a>,
+    outputs: PartialsRows<'a>,
     stop: &'a AtomicBool,
 }
 
@@ -128,7 +128,8 @@ impl Task for Variation<'_> {
         let order = precision.order;
         let mut workspace = Workspace::new(equations);
         let mut linear = Linear::new(equations.bodies.len());
-        let mut blocks: Vec<_> = columns.chunks(LANES).map(|columns| Block::new(columns, scene, exponent)).collect();
+        let mut blocks: Vec<_> =
+            columns.chunks(LANES).map(|columns| ColumnBlock::new(columns, scene, exponent)).collect();
         let (mut start, mut next, mut steps) = (runner.time, 0, 0);
         loop {
             while let Some((index, time)) = times.get(next).filter(|(_, time)| reached(*time, runner.time, backward)) {
@@ -253,8 +254,8 @@ fn squared<S: InstructionSet>(simd: S, vector: impl Fn(usize) -> [Row; 2], k: us
 }
 
 /// Eight columns.
-struct Block<'a> {
-    columns: &'a [Column],
+struct ColumnBlock<'a> {
+    columns: &'a [ForcedColumn],
     scene: &'a Scene,
     exponent: i32,
     angle: [Vectors; ROWS],
@@ -262,15 +263,17 @@ struct Block<'a> {
     force: [Vectors; ROWS],
 }
 
-impl<'a> Block<'a> {
-    fn new(columns: &'a [Column], scene: &'a Scene, exponent: i32) -> Self {
+impl<'a> ColumnBlock<'a> {
+    fn new(columns: &'a [ForcedColumn], scene: &'a Scene, exponent: i32) -> Self {
         let nothing = [[[0.0; LANES]; 3]; ROWS];
         let mut block = Self { columns, scene, exponent, angle: nothing, rate: nothing, force: nothing };
         for (lane, column) in columns.iter().enumerate() {
             for axis in 0..3 {
                 match column {
-                    Column::Attitude(turn) => block.angle[0][axis][lane] = turn[axis],
-                    Column::AngularVelocity(change) => block.rate[0][axis][lane] = scaled(change[axis], -exponent),
+                    ForcedColumn::Attitude(turn) => block.angle[0][axis][lane] = turn[axis],
+                    ForcedColumn::AngularVelocity(change) => {
+                        block.rate[0][axis][lane] = scaled(change[axis], -exponent)
+                    }
                     _ => {}
                 }
             }
@@ -291,8 +294,8 @@ impl<'a> Block<'a> {
         let mut elements: Option<(usize, [Series; 6])> = None;
         for (lane, column) in self.columns.iter().enumerate() {
             match column {
-                Column::Attitude(_) | Column::AngularVelocity(_) => {}
-                Column::Inertia(change) => {
+                ForcedColumn::Attitude(_) | ForcedColumn::AngularVelocity(_) => {}
+                ForcedColumn::Inertia(change) => {
                     for k in 0..order {
                         let [x, y, z, _] = workspace.rates[k + 1];
                         let faster = (k + 1) as f64 * (change * Vector3::new(x, y, z));
@@ -303,7 +306,7 @@ impl<'a> Block<'a> {
                         }
                     }
                 }
-                Column::Element(body, element) => {
+                ForcedColumn::Element(body, element) => {
                     let Disturber::Conic(conic) = &equations.bodies[*body] else { continue };
                     let series = match &elements {
                         Some((of, series)) if of == body => series,
@@ -316,7 +319,7 @@ impl<'a> Block<'a> {
                     };
                     self.force_by_path(simd, (equations, workspace), (*body, lane, unit), &series[*element], order);
                 }
-                Column::Attraction(body) => {
+                ForcedColumn::Attraction(body) => {
                     let DisturbingBody::Orbit(orbit) = &self.scene.asked_disturbing()[*body] else { continue };
                     for k in 0..order {
                         for axis in 0..3 {
@@ -442,7 +445,13 @@ impl<'a> Block<'a> {
 
     /// Writes the derivatives of a time a length after the start of the step; `place`: the index of the time, the first column of the block, and the number of all columns.
     #[inline(always)]
-    fn write(&self, length: f64, order: usize, (index, first, all): (usize, usize, usize), outputs: &mut Outputs<'_>) {
+    fn write(
+        &self,
+        length: f64,
+        order: usize,
+        (index, first, all): (usize, usize, usize),
+        outputs: &mut PartialsRows<'_>,
+    ) {
         let [angle, rate] = self.at(length, order);
         for axis in 0..3 {
             let row = (3 * index + axis) * all + first;

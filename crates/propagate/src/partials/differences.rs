@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::input::options::Method;
 use crate::input::scene::Scene;
 use crate::input::state::State;
-use crate::integration::variation::{Column, Outputs};
+use crate::integration::variation::{ForcedColumn, PartialsRows};
 use crate::motion::solved::Motion;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
@@ -26,7 +26,12 @@ const TOLERANCE: f64 = 1e-13;
 const STENCIL: [(f64, f64); 4] = [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)];
 
 /// Writes the derivatives at times that are valid for the motion, in the axes of its scene.
-pub(super) fn fill(motion: &Motion, columns: &[Column], times: &[f64], outputs: Outputs<'_>) -> Result<(), Error> {
+pub(super) fn fill(
+    motion: &Motion,
+    columns: &[ForcedColumn],
+    times: &[f64],
+    outputs: PartialsRows<'_>,
+) -> Result<(), Error> {
     let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance())).method(Method::Closed);
     let scene = match motion.plan.averaging() {
         Some(averaging) => scene.averaging(averaging),
@@ -73,7 +78,7 @@ impl Samples {
 }
 
 /// The step of a parameter.
-fn step(scene: &Scene, parameter: &Column, times: &[f64]) -> f64 {
+fn step(scene: &Scene, parameter: &ForcedColumn, times: &[f64]) -> f64 {
     let State { epoch, angular_velocity, .. } = *scene.state();
     let farthest = times.iter().fold(0.0_f64, |most, time| most.max((time - epoch).abs()));
     let rate = angular_velocity.norm();
@@ -83,14 +88,14 @@ fn step(scene: &Scene, parameter: &Column, times: &[f64]) -> f64 {
         DisturbingBody::Tabulated(_) => None,
     };
     match parameter {
-        Column::Attitude(_) => STEP,
-        Column::AngularVelocity(_) => part(rate) * rate,
-        Column::Inertia(change) => {
+        ForcedColumn::Attitude(_) => STEP,
+        ForcedColumn::AngularVelocity(_) => part(rate) * rate,
+        ForcedColumn::Inertia(change) => {
             let moments = scene.body().moments();
             let relative = Matrix3::from_fn(|i, j| change[(i, j)].abs() / (moments[i] * moments[j]).sqrt());
             part(rate) / relative.max()
         }
-        Column::Element(body, element) => orbit(*body).map_or(STEP, |orbit| {
+        ForcedColumn::Element(body, element) => orbit(*body).map_or(STEP, |orbit| {
             let (motion, e) = (orbit.mean_motion(), orbit.eccentricity());
             match element {
                 0 => part(motion) * motion,
@@ -99,19 +104,23 @@ fn step(scene: &Scene, parameter: &Column, times: &[f64]) -> f64 {
                 _ => STEP,
             }
         }),
-        Column::Attraction(body) => orbit(*body).map_or(STEP, |orbit| LARGEST * orbit.strength()),
+        ForcedColumn::Attraction(body) => orbit(*body).map_or(STEP, |orbit| LARGEST * orbit.strength()),
     }
 }
 
 /// The scene with one parameter changed.
-fn changed(scene: &Scene, parameter: &Column, step: f64) -> Scene {
+fn changed(scene: &Scene, parameter: &ForcedColumn, step: f64) -> Scene {
     let (mut state, mut change) = (*scene.state(), Matrix3::zeros());
     match parameter {
-        Column::Attitude(axis) => state.attitude *= UnitQuaternion::from_scaled_axis(axis * step),
-        Column::AngularVelocity(direction) => state.angular_velocity += direction * step,
-        Column::Inertia(direction) => change = direction * step,
-        Column::Element(body, element) => return with_orbit(scene, *body, |orbit| orbit.displaced(*element, step)),
-        Column::Attraction(body) => return with_orbit(scene, *body, |orbit| orbit.attracting(orbit.strength() + step)),
+        ForcedColumn::Attitude(axis) => state.attitude *= UnitQuaternion::from_scaled_axis(axis * step),
+        ForcedColumn::AngularVelocity(direction) => state.angular_velocity += direction * step,
+        ForcedColumn::Inertia(direction) => change = direction * step,
+        ForcedColumn::Element(body, element) => {
+            return with_orbit(scene, *body, |orbit| orbit.displaced(*element, step));
+        }
+        ForcedColumn::Attraction(body) => {
+            return with_orbit(scene, *body, |orbit| orbit.attracting(orbit.strength() + step));
+        }
     }
     let elements = [change.m11, change.m22, change.m33, change.m12, change.m13, change.m23];
     scene.starting_from(scene.body().displaced(elements), state)

@@ -7,7 +7,7 @@ use super::differences;
 use super::displacement::ELEMENTS;
 use super::parameters::Parameter;
 use crate::error::Error;
-use crate::integration::variation::{self, Column, Outputs};
+use crate::integration::variation::{self, ForcedColumn, PartialsRows};
 use crate::motion::batch::Batch;
 use crate::motion::solved::Motion;
 
@@ -16,7 +16,12 @@ const MOST_STEPS: f64 = 2.5e3;
 
 impl Batch<'_> {
     /// The derivatives of a motion under torques with respect to chosen parameters, (n, 3, columns).
-    pub(super) fn forced(&self, parameters: &[Parameter], times: &[f64], outputs: Outputs<'_>) -> Result<(), Error> {
+    pub(super) fn forced(
+        &self,
+        parameters: &[Parameter],
+        times: &[f64],
+        outputs: PartialsRows<'_>,
+    ) -> Result<(), Error> {
         let by_elements = self.motion().scene().body().has_tensor();
         self.by_columns(&columns(self.motion(), parameters, by_elements), times, outputs)
     }
@@ -34,7 +39,7 @@ impl Batch<'_> {
         self.by_columns(&columns, times, outputs)
     }
 
-    fn by_columns(&self, columns: &[Column], times: &[f64], mut outputs: Outputs<'_>) -> Result<(), Error> {
+    fn by_columns(&self, columns: &[ForcedColumn], times: &[f64], mut outputs: PartialsRows<'_>) -> Result<(), Error> {
         let motion = self.motion();
         motion.valid(times, self.epoch())?;
         let times = motion.in_scene(self.epoch(), times);
@@ -55,7 +60,7 @@ impl Batch<'_> {
 }
 
 /// The columns of some parameters in the axes of the scene. `by_elements`: those of the body are the elements of its tensor about the user's axes.
-fn columns(motion: &Motion, parameters: &[Parameter], by_elements: bool) -> Vec<Column> {
+fn columns(motion: &Motion, parameters: &[Parameter], by_elements: bool) -> Vec<ForcedColumn> {
     let axes =
         motion.given.as_ref().map_or_else(Matrix3::identity, |given| given.turn.to_rotation_matrix().into_inner());
     let axis = |k: usize| axes.row(k).transpose();
@@ -66,15 +71,17 @@ fn columns(motion: &Motion, parameters: &[Parameter], by_elements: bool) -> Vec<
     let mut columns = Vec::new();
     for parameter in parameters {
         match *parameter {
-            Parameter::Attitude => columns.extend((0..3).map(|k| Column::Attitude(axis(k)))),
-            Parameter::AngularVelocity => columns.extend((0..3).map(|k| Column::AngularVelocity(axis(k)))),
-            Parameter::Moments if by_elements => columns.extend(ELEMENTS.map(|place| Column::Inertia(element(place)))),
+            Parameter::Attitude => columns.extend((0..3).map(|k| ForcedColumn::Attitude(axis(k)))),
+            Parameter::AngularVelocity => columns.extend((0..3).map(|k| ForcedColumn::AngularVelocity(axis(k)))),
+            Parameter::Moments if by_elements => {
+                columns.extend(ELEMENTS.map(|place| ForcedColumn::Inertia(element(place))))
+            }
             Parameter::Moments => {
-                let moment = |k: usize| Column::Inertia(Matrix3::from_diagonal(&Vector3::ith(k, 1.0)));
+                let moment = |k: usize| ForcedColumn::Inertia(Matrix3::from_diagonal(&Vector3::ith(k, 1.0)));
                 columns.extend((0..3).map(moment));
             }
-            Parameter::Orbit(body) => columns.extend((0..6).map(|element| Column::Element(body, element))),
-            Parameter::Attraction(body) => columns.push(Column::Attraction(body)),
+            Parameter::Orbit(body) => columns.extend((0..6).map(|element| ForcedColumn::Element(body, element))),
+            Parameter::Attraction(body) => columns.push(ForcedColumn::Attraction(body)),
         }
     }
     columns
