@@ -87,7 +87,7 @@ impl Partials {
 
 #[pymethods]
 impl Partials {
-    /// The names of the columns, in their order, a tuple of str.
+    /// The names of the columns, in their order.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, &self.names)
