@@ -6,7 +6,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
+.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -60,6 +60,7 @@ lint-python: $(VENV)/ready
 	$(PYTHON) tests/layers.py --planted
 	$(PYTHON) tests/names.py
 	$(PYTHON) tests/names.py --planted
+	$(PYTHON) benches/figures.py --check
 	$(PYTHON) tests/release.py
 
 PROGRAMS := andoyer-benches/programs,andoyer-tests/programs
@@ -73,8 +74,21 @@ bench: $(VENV)/installed  ## criterion by order, then run time against error: do
 	start=$$(date +%s) && cargo bench -p andoyer-benches && $(BIN)/python benches/collect.py --since $$start
 	$(BIN)/python benches/work_precision.py
 
-report: $(VENV)/ready  ## the figures of docs/speed.md with their picture, and the tables of the README, from docs/data
+figures: $(VENV)/installed  ## every file of docs/data anew, in one run on a clean commit, with where each comes from; more than an hour on two idle cores
+	$(BIN)/python benches/figures.py
+	$(MAKE) --no-print-directory report
+
+report: $(VENV)/ready  ## the figures of docs/speed.md with their picture, and the tables of the README, from docs/data, which must be of one run
 	$(BIN)/python benches/report.py
+
+scenes: $(VENV)/installed  ## the example scenes and an ensemble: docs/data/scenes.csv and ensemble.csv
+	$(BIN)/python examples/demo.py --record
+
+light-curves: $(VENV)/installed  ## light curves with known answers: docs/data/light-curves.csv; some minutes
+	$(BIN)/python benches/light_curves.py
+
+libration-cost: $(VENV)/installed  ## librations by order and eccentricity: docs/data/libration-cost.csv and its picture; some minutes
+	$(BIN)/python benches/libration_cost.py
 
 # With the features of the wheel, so that its libraries are compiled once.
 kernels:
@@ -138,7 +152,7 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 	target/release/gradient cases > docs/data/gravity-cases.csv
 	target/release/gradient levels > docs/data/gravity-levels.csv
 	target/release/gradient bounds 150 1 > docs/data/gravity-bounds.csv
-	target/release/gradient climb 2 90 11 > docs/data/gravity-climb.csv
+	target/release/gradient climb 3 150 2025 > docs/data/gravity-climb.csv
 	target/release/gradient table 40 1 > docs/data/gravity-table.csv
 	$(BIN)/python benches/averaged.py --scenes 30 --seed 2 --output docs/data/averaged-bodies.csv
 	$(BIN)/python benches/long_spans.py --output docs/data/gravity-spans.csv
@@ -150,27 +164,27 @@ bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds;
 rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-partials rivals-messages  ## the tables of ratios, in out/ too
 
 rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine
-	$(RIVALS)/bin/python benches/rivals/normal_form.py
+	$(RIVALS)/bin/python benches/rivals/normal_form.py --data docs/data/rivals-normal-form.csv
 
 rivals-products: $(RIVALS)/normal-form  ## products of polynomials against python-flint, Symbolica and SymEngine
 	cargo build --release --locked --quiet -p andoyer-benches --features programs --bin products
-	$(RIVALS)/bin/python benches/rivals/products.py --engine target/release/products
+	$(RIVALS)/bin/python benches/rivals/products.py --engine target/release/products --rivals flint flint-rational symbolica --data docs/data/rivals-products.csv
 
 rivals-propagation: $(RIVALS)/propagation $(RIVALS)/installed $(RIVALS)/orekit/ready  ## propagation against heyoka, SciPy, ode_solvers and, where there is Maven, Orekit
 	RUSTFLAGS='-C target-cpu=native' cargo build --release --locked --quiet --manifest-path benches/rivals/ode_solvers/Cargo.toml --target-dir $(RIVALS)/ode_solvers
-	$(RIVALS)/bin/python benches/rivals/propagation.py --ode-solvers $(RIVALS)/ode_solvers/release/ode-solvers-rival --orekit $(RIVALS)/orekit
+	$(RIVALS)/bin/python benches/rivals/propagation.py --data docs/data/rivals-propagation.csv --ode-solvers $(RIVALS)/ode_solvers/release/ode-solvers-rival --orekit $(RIVALS)/orekit
 
 rivals-gradient: $(RIVALS)/propagation $(RIVALS)/installed  ## the gravity gradient against heyoka
-	$(RIVALS)/bin/python benches/rivals/gradient.py
+	$(RIVALS)/bin/python benches/rivals/gradient.py --output docs/data/rivals-gradient.csv
 
 rivals-integration: $(RIVALS)/propagation $(RIVALS)/installed  ## the integrated method against heyoka, in nine regimes
-	$(RIVALS)/bin/python benches/rivals/integration.py --output out
+	$(RIVALS)/bin/python benches/rivals/integration.py --output docs/data/rivals-integration.csv
 
 rivals-libration: $(RIVALS)/propagation $(RIVALS)/installed  ## librations against the integration and heyoka: docs/data/libration-rivals.csv; a quarter of an hour
 	$(RIVALS)/bin/python benches/rivals/libration.py --output docs/data/libration-rivals.csv
 
 rivals-partials: $(RIVALS)/propagation $(RIVALS)/installed  ## derivatives against heyoka's variational equations
-	$(RIVALS)/bin/python benches/rivals/partials.py
+	$(RIVALS)/bin/python benches/rivals/partials.py --output docs/data/rivals-partials.csv
 
 rivals-messages: $(RIVALS)/installed $(RIVALS)/orekit/ready  ## attitude ephemeris messages as we write them, read by Orekit; EXAMPLES=FOLDER: other messages, read by both
 	$(RIVALS)/bin/python -m pip install --quiet astropy
@@ -238,6 +252,7 @@ package: $(VENV)/installed  ## the sdist and a wheel from it without network, th
 release-check: package  ## versions, addresses and licences agree; public Rust names against the last tag, where there is one and cargo-semver-checks
 	$(PYTHON) tests/release.py
 	$(PYTHON) tests/release.py --semver
+	$(PYTHON) benches/figures.py --check --fresh
 
 wheel: $(VENV)/installed
 

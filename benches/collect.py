@@ -2,8 +2,8 @@
 
     python benches/collect.py          after `cargo bench`; `make bench` runs both
 
-A row is a benchmark id `task/size/engine` with the median and its 95 % interval in ns per iteration, the elements per iteration if the benchmark counts them, and the machine. Only ids
-that were measured since the start of the run are used (`--since`, seconds since 1970).
+A row is a benchmark id `task/size/engine` with the median and its 95 % interval in ns per iteration, and the elements per iteration if the benchmark counts them. Only ids that were
+measured since the start of the run are used (`--since`, seconds since 1970).
 """
 
 import argparse
@@ -12,14 +12,12 @@ import json
 import re
 from pathlib import Path
 
-from machine import ROOT, described
-
+ROOT = Path(__file__).resolve().parents[1]
 OUTPUT = ROOT / "docs" / "data" / "bench.csv"
 
 
 def rows(folder, since):
     """The newest measurement of each id, in the order of tasks, sizes as numbers, and engines."""
-    machine = described()
     for path in folder.glob("**/new/benchmark.json"):
         estimates = path.with_name("estimates.json")
         if estimates.stat().st_mtime < since:
@@ -32,13 +30,12 @@ def rows(folder, since):
         yield {
             "task": task,
             "size": "/".join(rest[:-1]) or rest[-1],
-            "engine": rest[-1] if len(rest) > 1 else "",
+            "engine": rest[-1] if len(rest) > 1 else "–",
             "median_ns": f"{median['point_estimate']:.6g}",
             "low_ns": f"{interval['lower_bound']:.6g}",
             "high_ns": f"{interval['upper_bound']:.6g}",
             "elements": elements,
             "element_ns": f"{median['point_estimate'] / elements:.6g}",
-            **machine,
         }
 
 
@@ -53,16 +50,10 @@ def main():
     parser.add_argument("--criterion", type=Path, default=ROOT / "target" / "criterion")
     parser.add_argument("--since", type=float, default=0.0)
     parser.add_argument("--output", type=Path, default=OUTPUT)
-    parser.add_argument("--keep", action="store_true", help="keep the rows of the file that were not measured anew")
     arguments = parser.parse_args()
     found = sorted(rows(arguments.criterion, arguments.since), key=by_number)
     if not found:
         parser.exit(1, f"no measurement in {arguments.criterion}: run `cargo bench` first\n")
-    if arguments.keep:
-        ids = {tuple(row[key] for key in ("task", "size", "engine")) for row in found}
-        with open(arguments.output, encoding="utf-8") as file:
-            found += [row for row in csv.DictReader(file) if (row["task"], row["size"], row["engine"]) not in ids]
-        found.sort(key=by_number)
     with open(arguments.output, "w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, found[0], lineterminator="\n")
         writer.writeheader()

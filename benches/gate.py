@@ -16,7 +16,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from machine import described
+from figures import machine
 
 # The conditions of the recorded counts.
 INSTRUCTION_SETS = {"avx2", "fma"}
@@ -66,7 +66,7 @@ def main():
     if missing := lacking(Path("/proc/cpuinfo").read_text(encoding="utf-8")):
         skip(f"no {' and no '.join(missing)} on this processor")
         return
-    compiler = described()["compiler"]
+    compiler = machine()["compiler"]
     counts = counted(arguments.program)
     if arguments.write:
         FILE.write_text(json.dumps({"compiler": compiler, "instructions": counts}, indent=2) + "\n", encoding="utf-8")

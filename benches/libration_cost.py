@@ -13,7 +13,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from machine import ROOT, described
+from figures import ROOT
 
 DATA = ROOT / "docs" / "data" / "libration-cost.csv"
 PICTURE = ROOT / "docs" / "libration-cost.png"
@@ -80,10 +80,9 @@ def main():
             cwd=ROOT,
             check=True,
         )
-        machine = described()
-        rows = [row | machine for row in measured()]
+        rows = list(measured())
         with options.data.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, [*COLUMNS, *machine], lineterminator="\n")
+            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
             writer.writeheader()
             writer.writerows(rows)
     with options.data.open(encoding="utf-8", newline="") as file:

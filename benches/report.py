@@ -2,21 +2,20 @@
 
     python benches/report.py          `make report`, from docs/data/bench.csv, work-precision.csv and stress.csv
 
-This script measures nothing. The tables show where a rival is faster at the same error.
+This script measures nothing, and refuses figures that are not those of one run (figures.py). The tables show where a rival is faster at the same error.
 """
 
 import csv
 import re
-from pathlib import Path
+import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
+from figures import DATA, ROOT, faults, provenance
 
-ROOT = Path(__file__).resolve().parents[1]
-DATA = ROOT / "docs" / "data"
 MARKS = ("<!-- report: written by make report -->", "<!-- end -->")
 # Colours of Okabe and Ito, with a marker each.
 CURVES = {
@@ -81,9 +80,9 @@ def table(heads, rows):
     return "\n".join([*lines, *("| " + " | ".join(map(str, row)) + " |" for row in rows)])
 
 
-def machine(rows):
-    """The machine of the measurements of a file, in a sentence."""
-    first = rows[0]
+def run():
+    """When and where the figures were measured, in a sentence."""
+    first = provenance()["bench.csv"]
     return f"{first['date']}, commit {first['commit']}, {first['processor']}, {first['cores']} cores, {first['compiler']}."
 
 
@@ -100,9 +99,7 @@ def by_task(rows):
             found = [cells.get((size, engine)) for engine in engines]
             counted = max(int(row["elements"]) for row in found if row)
             lines.append([size, f"{counted:,}" if counted > 1 else "–", *(duration(row["element_ns"]) if row else "–" for row in found)])
-        # A task that was measured separately states its date and machine.
-        apart = "" if machine(here) == machine(rows) else f"{machine(here)}\n\n"
-        parts.append(f"### {task}\n\n{apart}" + table([task, "elements", *(engine or "time" for engine in engines)], lines))
+        parts.append(f"### {task}\n\n" + table([task, "elements", *(engine.replace("–", "time") for engine in engines)], lines))
     return "\n\n".join(parts)
 
 
@@ -146,8 +143,12 @@ def by_work(bench, precision, stress):
             f"{of('set-up', 'body-new-tolerance-1e-12', 'closed')} / {of('set-up', 'body-new-order-20', 'series')}",
         ],
         [
-            "a sample of attitude and rates, even / uneven times",
-            f"{of('skip', 'times-uniform', 'closed')} / {of('skip', 'outputs-attitudes-and-rates', 'closed')}",
+            "a sample of attitude and rates, 100,000 even times",
+            of("skip", "times-uniform", "closed"),
+        ],
+        [
+            "the same in calls with 1 / 100 / 10,000 / 1,000,000 uneven times",
+            " / ".join(of("evaluate", f"times-{count}", "closed") for count in (1, 100, 10_000, 1_000_000)),
         ],
         [
             "gravity gradient, 1,000 rotations: set-up / a sample",
@@ -164,7 +165,7 @@ def by_work(bench, precision, stress):
 
 def summary(bench, precision, stress):
     """The table of the README: the time of each kind of work, and the error over all random scenes."""
-    said = "One core of a shared machine with AVX-512; `make report` writes the table from what `make bench` and `make stress` measured. More: [accuracy](docs/accuracy.md), [speed](docs/speed.md)."
+    said = "One core of a shared machine with AVX-512 (`make figures`). More: [accuracy](docs/accuracy.md), [speed](docs/speed.md)."
     return f"{by_work(bench, precision, stress)}\n\n{said}"
 
 
@@ -175,23 +176,69 @@ def between(path, text):
     path.write_text(f"{before}{MARKS[0]}\n\n{text}\n\n{MARKS[1]}{rest.split(MARKS[1], 1)[1]}", encoding="utf-8")
 
 
+def spread(values, digits=2):
+    """The lowest and the highest number."""
+    low, high = (f"{value:.{digits}g}" for value in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
+def against_rivals():
+    """The ratio of the times and both errors, a row for a rival and a kind of work."""
+    lines = []
+    propagation = read("rivals-propagation")
+    ours = {(row["scene"], row["times"]): row for row in propagation if row["engine"] == "andoyer closed"}
+    engines = ("heyoka 1e-12", "heyoka 1e-15", "SciPy closed form", "SciPy DOP853", "ode_solvers DOP853", "Orekit TorqueFree")
+    for engine in engines:
+        for times in ("uneven", "uniform"):
+            here = [row for row in propagation if (row["engine"], row["times"]) == (engine, times)]
+            if here:
+                own = [float(ours[row["scene"], times]["attitude_error"]) for row in here]
+                ratios, errors = ([float(row[column]) for row in here] for column in ("whole_ratio", "attitude_error"))
+                work = f"free motion, set-up and 100,000 {times} times"
+                lines.append([work, engine, spread(ratios), spread(own, 1), spread(errors, 1)])
+    gradient = read("rivals-gradient")
+    columns = [[float(row[name]) for row in gradient] for name in ("ratio", "error", "heyoka_error")]
+    lines.append(["gravity gradient, 1,000 rotations, averaged", "heyoka 1e-12", spread(columns[0]), spread(columns[1], 1), spread(columns[2], 1)])
+    ratios = [float(row["ratio_at_error"]) for row in read("rivals-integration")]
+    lines.append(["gravity gradient, integrated, with our error bound", "heyoka at our error", spread(ratios), "–", "–"])
+    partials = read("rivals-partials")
+    for forced in (False, True):
+        here = [row for row in partials if (row["scene"] == "under a torque") is forced]
+        work = "derivatives under a torque" if forced else "derivatives of the free motion"
+        lines.append([work, "heyoka's variational equations", spread([float(row["ratio"]) for row in here]), "–", "–"])
+    for row in read("rivals-normal-form"):
+        if row["rival"] == "flint" and row["order"] in ("10", "30", "50"):
+            lines.append([f"exact normal form, order {row['order']}", "python-flint, Deprit's triangle", f"{float(row['ratio']):.3g}", "0", "0"])
+    for row in read("rivals-products"):
+        if row["task"].endswith("exact") and row["rival"] != "flint-rational":
+            lines.append([f"product of {row['task']}", row["rival"], f"{float(row['ratio']):.2g}", "0", "0"])
+    return table(["work", "rival", "rival's time / ours", "our error [rad]", "its error [rad]"], lines)
+
+
 def main():
+    found = faults()
+    if found:
+        sys.exit("\n".join(f"report: {fault}" for fault in found))
     bench, precision, stress = read("bench"), read("work-precision"), read("stress")
     draw(precision, ROOT / "docs" / "performance.png")
+    said = "A ratio above 1 means that we are faster; a range goes over the scenes, the one next to the separatrix included. Compilation, heyoka's 0.1 to 1 s, is not counted."
     page = "\n\n".join(
         [
-            "## Run time against error",
-            f"![Run time against error, a panel a scene, a curve an engine](performance.png)\n\n{machine(precision)}",
+            f"Measured in one run, one thread unless it says otherwise: {run()}",
+            against_rivals(),
+            said,
+            "![Run time against error, a panel a scene, a curve an engine](performance.png)",
             "For each engine the table gives the time of its cheapest setting that reaches the error. The time includes set-up and 20,000 samples:",
             at_equal_error(precision),
-            "## By order, output and size",
-            f"{machine(bench)} The times are medians, for one element if the table has a number of elements, otherwise for the whole task.",
-            by_task(bench),
         ]
     )
     between(ROOT / "docs" / "speed.md", page)
+    between(
+        ROOT / "benches" / "README.md",
+        f"Medians, for one element if the table has a number of elements, otherwise for the whole task. {run()}\n\n{by_task(bench)}",
+    )
     between(ROOT / "README.md", summary(bench, precision, stress))
-    print("docs/speed.md, docs/performance.png, README.md")
+    print("docs/speed.md, docs/performance.png, benches/README.md, README.md")
 
 
 if __name__ == "__main__":

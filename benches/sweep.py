@@ -29,7 +29,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "referenc
 import numpy as np
 import sweep_picture
 from comparison import Reference
-from machine import ROOT
+from figures import ROOT
 from numpy.typing import NDArray
 
 import andoyer

@@ -23,7 +23,7 @@ import enclosures
 import motions
 import numpy as np
 import propagators
-from machine import ROOT, described
+from figures import ROOT
 
 import andoyer
 
@@ -61,7 +61,7 @@ def engines(scene, times):
     """(engine, setting, maker) of all engines. A maker raises `Unfit` if its engine does not serve the scene."""
     yield from (("series", order, lambda order=order: Fixed(scene, times, "series", order)) for order in ORDERS)
     yield from (("closed form", x, lambda x=x: Fixed(scene, times, "closed", None, x)) for x in TOLERANCES)
-    yield "SciPy closed form", "", lambda: propagators.ScipyClosed(scene, times)
+    yield "SciPy closed form", "–", lambda: propagators.ScipyClosed(scene, times)
     yield from (("SciPy DOP853", x, lambda x=x: Dop853(scene, times, x)) for x in STEPS)
 
 
@@ -79,7 +79,7 @@ def largest_error(rows, high, low):
     return float((2 * np.linalg.norm((sign * rows - high) - low, axis=1)).max())
 
 
-def measured(scene, machine):
+def measured(scene):
     """The rows of one scene."""
     inner = np.random.default_rng(2017).uniform(0, motions.STOP, SAMPLES - 2)
     times = np.concatenate([[0.0], np.sort(inner), [motions.STOP]])
@@ -106,14 +106,13 @@ def measured(scene, machine):
             "setup_us": f"{1e6 * set_up:.4g}",
             "sample_ns": f"{1e9 * samples / SAMPLES:.4g}",
             "whole_ms": f"{1e3 * (set_up + samples):.4g}",
-            **machine,
         }
 
 
 def main():
-    machine, rows = described(), []
+    rows = []
     for scene in motions.scenes(SCENES):
-        rows += measured(scene, machine)
+        rows += measured(scene)
         print(f"{scene.name}: {sum(row['scene'] == scene.name for row in rows)} settings", file=sys.stderr, flush=True)
     with open(OUTPUT, "w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, rows[0], lineterminator="\n")

@@ -166,7 +166,7 @@ def record(table: Sequence[Sequence[str]], root: Path = ROOT) -> None:
     with (data / "scenes.csv").open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["scene", "mode", "method", "separatrix_ratio", "order", "harmonics", "error", "bound", "sample_ns"])
-        writer.writerows([cell.replace("–", "") for cell in line] for line in table)
+        writer.writerows(table)
     with (data / "ensemble.csv").open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["bodies", "epochs", "threads", "seconds"])

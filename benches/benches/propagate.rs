@@ -100,16 +100,22 @@ fn evaluate_by(c: &mut Criterion) {
     group.finish();
 }
 
-fn evaluate_one(c: &mut Criterion) {
+/// The closed form at one time and at up to a million uneven times.
+fn evaluate_counts(c: &mut Criterion) {
     let motion = triaxial().solve().expect("short-axis");
     let mut group = c.benchmark_group("evaluate");
-    group.bench_function(BenchmarkId::new("one-time", "series"), |b| {
-        b.iter(|| {
-            let sample = motion.at(black_box(0.3)).expect("a finite time");
-            assert!(sample.angular_velocity.x < 1.0);
-            sample
+    group.sample_size(20);
+    for count in [1, 10, 100, 10_000, 1_000_000] {
+        let times: Vec<f64> = (0..count).map(|k| 628.0 * (0.618_033_988_749_894_9 * k as f64).fract()).collect();
+        let (mut attitudes, mut rates) = (vec![[0.0; 4]; count], vec![[0.0; 3]; count]);
+        group.throughput(Throughput::Elements(count as u64));
+        group.bench_function(BenchmarkId::new(format!("times-{count}"), "closed"), |b| {
+            b.iter(|| {
+                motion.batch().threads(1).samples_into(black_box(&times), &mut attitudes, &mut rates).expect("finite");
+                assert!((norm(&attitudes[count - 1]) - 1.0).abs() < 1e-12);
+            });
         });
-    });
+    }
     group.finish();
 }
 
@@ -226,6 +232,6 @@ fn momentum(motion: &Motion, rates: &[f64; 3]) -> f64 {
 criterion_group! {
     name = benches;
     config = short::short();
-    targets = solve, evaluate, evaluate_by, evaluate_one, set_up, skip
+    targets = solve, evaluate, evaluate_by, evaluate_counts, set_up, skip
 }
 criterion_main!(benches);

@@ -1,6 +1,6 @@
 """Compare andoyer's averaged theory of the gravity gradient with heyoka's integration of the full equations.
 
-    python benches/rivals/gradient.py [--repeats 7] [--output out]
+    python benches/rivals/gradient.py [--repeats 7] [--output docs/data/rivals-gradient.csv]
 
 The motions have a thousand rotations under the gravity gradient of a body on a Keplerian orbit, with attitude and rates twice a rotation (2,000 samples) or twice an orbit (2 to 40 samples). heyoka integrates
 Euler's equations with the torque, the quaternion and Kepler's equation (its `kepE`) at a tolerance of 1e-12, with continuous output or on the grid of times, whichever is faster. andoyer
@@ -13,6 +13,7 @@ heyoka compiles the equations of each body and orbit when an integrator is made 
 """
 
 import argparse
+import csv
 import math
 import os
 import random
@@ -37,6 +38,7 @@ ROTATIONS = 1000
 TOLERANCE, FINEST = 1e-12, 1e-17
 CHECK_ROTATIONS = 10
 LEAST_SECONDS = 0.02
+COLUMNS = "scene times samples setup_us first_us heyoka_us compilation_ms sample_ns heyoka_sample_ns ratio ratio_with_compilation error heyoka_error heyoka_against_dop853 better"
 # Moments, mean motion over the spin rate (1), eccentricity, inclination.
 SCENES = {
     "triaxial, n = 2e-3": ((1.0, 1.02, 1.05), 2e-3, 0.1, 0.4),
@@ -175,7 +177,7 @@ def compare(name, sampling, repeats):
 def main():
     parser = argparse.ArgumentParser(description="Gravity gradient: averaged theory against integration.")
     parser.add_argument("--repeats", type=int, default=7)
-    parser.add_argument("--output", type=Path, default=Path("out"))
+    parser.add_argument("--output", type=Path)
     arguments = parser.parse_args()
     heads = [
         "scene",
@@ -191,14 +193,16 @@ def main():
         "with compilation",
     ]
     heads += ["error [rad]", "heyoka", "heyoka against DOP853", "better"]
-    lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
+    rows, lines = [], ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
     for name, sampling in product(SCENES, ("twice a rotation", "twice an orbit")):
-        lines.append("| " + " | ".join(compare(name, sampling, arguments.repeats)) + " |")
+        rows.append(compare(name, sampling, arguments.repeats))
+        lines.append("| " + " | ".join(rows[-1]) + " |")
         print(lines[-1], file=sys.stderr, flush=True)
-    arguments.output.mkdir(exist_ok=True)
-    text = "\n".join(lines) + "\n"
-    (arguments.output / "gradient.md").write_text(text, encoding="utf-8")
-    print(text)
+    print("\n".join(lines))
+    if arguments.output:
+        with arguments.output.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerows([COLUMNS.split(), *([cell or "–" for cell in row] for row in rows)])
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Compare the integrated method with heyoka's integration of the same equations, in nine regimes.
 
-    python benches/rivals/integration.py [--scenes 30] [--seed 1] [--tolerance 1e-10] [--no-cost] [--output out]
+    python benches/rivals/integration.py [--scenes 30] [--seed 1] [--tolerance 1e-10] [--no-cost] [--output docs/data/rivals-integration.csv]
 
 Random scenes of each regime: slow, synchronous, 3:2, fast, two bodies, precessing, eccentric (up to 0.95), near the separatrix, long axis. The reference is heyoka in extended precision (80 bits, tolerance
 1e-19) with the same doubles. The table has the largest error, the number of errors above the error bound, the number of errors above the tolerance if `Plan.meets_tolerance` is True, the quantiles of bound / error, and the least
@@ -12,6 +12,7 @@ tolerance. The engines take turns. A ratio, heyoka / andoyer, is the median of t
 """
 
 import argparse
+import csv
 import math
 import os
 import sys
@@ -212,7 +213,7 @@ def main():
     options.add_argument("--output", type=Path)
     asked = options.parse_args()
     warnings.simplefilter("ignore", andoyer.ToleranceWarning)
-    reference, lines, bad = Reference(), [], 0
+    reference, lines, rows, bad = Reference(), [], [], 0
     lines.append(f"tolerance {asked.tolerance:g}, {asked.scenes} scenes a regime, heyoka {hy.__version__}, andoyer {andoyer.__version__}")
     lines.append(
         f"{'regime':<13}{'worst error':>12}{'its bound':>11}{'beyond bound':>14}{'beyond tolerance':>18}{'missed':>8}{'refused':>9}  {'bound/error q5, q50, q95':>26}{'least':>9}  {'at tolerance':>11}{'at error':>13}{'ms':>9}{'compiled, s':>12}"
@@ -238,6 +239,7 @@ def main():
                 print(f"beyond the bound: {regime} {index}: {error:.2e} and {motion.plan.error_bound:.2e}", file=sys.stderr)
             if not priced and not asked.no_cost and motion.plan.meets_tolerance:
                 at_tolerance, at_error, seconds, compiled = cost(scene, times, exact)
+                rows.append([regime, *(f"{number:.3g}" for number in (at_tolerance, at_error, seconds * 1e3, compiled))])
                 priced = f"{at_tolerance:>13.2f}{at_error:>13.2f}{seconds * 1e3:>9.2f}{compiled:>12.1f}"
         errors, bounds = np.array(errors), np.array(bounds)
         outside = int((errors > bounds).sum())
@@ -252,8 +254,8 @@ def main():
     text = "\n".join(lines)
     print(text)
     if asked.output:
-        asked.output.mkdir(parents=True, exist_ok=True)
-        (asked.output / "integration.txt").write_text(text + "\n", encoding="utf-8")
+        with asked.output.open("w", encoding="utf-8", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows([["regime", "ratio_at_tolerance", "ratio_at_error", "milliseconds", "compilation_s"], *rows])
     sys.exit(bool(bad))
 
 

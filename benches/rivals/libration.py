@@ -105,7 +105,7 @@ def main():
                 itself = engine == "integrated" and orbits > EXTENDED
                 error = math.nan if itself else apart(found, exact).max()
                 print(f"{case:18s} {orbits:7d} orbits  {engine:10s} {setting:8s} error {error:.1e} rad  {1e3 * least:10.2f} ms", flush=True)
-                rows.append([case, orbits, engine, setting, "" if itself else f"{error:.2e}", f"{least:.5g}"])
+                rows.append([case, orbits, engine, setting, "–" if itself else f"{error:.2e}", f"{least:.5g}"])
     if asked.output:
         with asked.output.open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")

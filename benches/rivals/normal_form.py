@@ -134,7 +134,8 @@ def arguments():
     parser.add_argument("--orders", type=int, nargs="+", help="orders of every rival (default: each rival's own list)")
     parser.add_argument("--repeats", type=int, help="repeats of every row (default: 9, and 3 where the rival takes over a second)")
     parser.add_argument("--rivals", nargs="+", choices=RIVALS, default=list(RIVALS), metavar="RIVAL", help=", ".join(RIVALS))
-    parser.add_argument("--output", type=Path, default=Path("out"), help="folder of rivals.md and rivals.csv (default: out)")
+    parser.add_argument("--output", type=Path, default=Path("out"), help="folder of rivals.md (default: out)")
+    parser.add_argument("--data", type=Path, help="file of the rows")
     parser.add_argument("--alone", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.repeats is not None and options.repeats < 1:
@@ -163,10 +164,11 @@ def main():
     print("\n".join(lines))
     options.output.mkdir(parents=True, exist_ok=True)
     (options.output / "rivals.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    with open(options.output / "rivals.csv", "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(Row._fields)
-        writer.writerows(rows)
+    if options.data:
+        with options.data.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(Row._fields)
+            writer.writerows([f"{cell:.4g}" if isinstance(cell, float) else "–" if cell is None else cell for cell in row] for row in rows)
     return 0
 
 

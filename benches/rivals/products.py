@@ -199,7 +199,8 @@ def arguments():
     parser.add_argument("--repeats", type=int, default=5, help="repeats of every row (default: 5)")
     parser.add_argument("--rivals", nargs="+", choices=RIVALS, default=list(RIVALS), metavar="RIVAL", help=", ".join(RIVALS))
     parser.add_argument("--tasks", nargs="+", choices=TASKS, default=list(TASKS), metavar="TASK", help=", ".join(TASKS))
-    parser.add_argument("--output", type=Path, default=Path("out"), help="folder of products.md and products.csv (default: out)")
+    parser.add_argument("--output", type=Path, default=Path("out"), help="folder of products.md (default: out)")
+    parser.add_argument("--data", type=Path, help="file of the rows")
     options = parser.parse_args()
     if options.repeats < 1:
         parser.error(f"--repeats {options.repeats}: at least 1")
@@ -222,10 +223,11 @@ def main():
     print("\n".join(lines))
     options.output.mkdir(parents=True, exist_ok=True)
     (options.output / "products.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    with open(options.output / "products.csv", "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(Row._fields)
-        writer.writerows(rows)
+    if options.data:
+        with options.data.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(Row._fields)
+            writer.writerows([f"{cell:.4g}" if isinstance(cell, float) else "–" if cell is None else cell for cell in row] for row in rows)
     return 0
 
 

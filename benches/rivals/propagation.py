@@ -1,10 +1,10 @@
 """Compare andoyer with other programs for torque-free propagation: attitude and rates at 100,000 times within a hundred rotations.
 
-    python benches/rivals/propagation.py [--scenes earth eros] [--repeats 7] [--output out] [--ode-solvers PROGRAM] [--orekit FOLDER]
+    python benches/rivals/propagation.py [--scenes earth eros] [--repeats 7] [--output out] [--data FILE] [--ode-solvers PROGRAM] [--orekit FOLDER]
 
 The engines take turns in every round. Times are CPU seconds of all threads with RAYON_NUM_THREADS = 1, including the call from Python, as medians over the rounds. A
 ratio is the median of the ratios of the rounds. Each answer is compared with tests/reference/torque_free.py. The table is printed, and written to the output folder as
-Markdown and CSV. Exit status 1 for a wrong answer.
+Markdown; the rows to --data as CSV. Exit status 1 for a wrong answer.
 """
 
 import argparse
@@ -160,7 +160,8 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scenes", nargs="+", choices=motions.NAMES, default=list(motions.NAMES), metavar="SCENE", help=", ".join(motions.NAMES))
     parser.add_argument("--repeats", type=int, default=7, help="rounds; three at most for what takes over half a second (default: 7)")
-    parser.add_argument("--output", type=Path, default=Path("out"), help="folder of propagation.md and propagation.csv (default: out)")
+    parser.add_argument("--output", type=Path, default=Path("out"), help="folder of propagation.md (default: out)")
+    parser.add_argument("--data", type=Path, help="file of the rows")
     parser.add_argument("--ode-solvers", type=Path, help="the program that benches/rivals/ode_solvers builds")
     parser.add_argument("--orekit", type=Path, help="folder with the libraries that benches/rivals/orekit/pom.xml names")
     options = parser.parse_args()
@@ -182,10 +183,11 @@ def main():
     print("\n".join(lines))
     options.output.mkdir(parents=True, exist_ok=True)
     (options.output / "propagation.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    with open(options.output / "propagation.csv", "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(Row._fields)
-        writer.writerows(table)
+    if options.data:
+        with options.data.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(Row._fields)
+            writer.writerows([f"{cell:.4g}" if isinstance(cell, float) else cell or "–" for cell in row] for row in table)
     return 0
 
 

@@ -4,6 +4,7 @@ A block marked `measured` contains the name of one of the tables below.
 """
 
 import csv
+import re
 import statistics
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -26,15 +27,26 @@ def read(name: str) -> list[Row]:
         return list(csv.DictReader(file))
 
 
+def plain(cell: str) -> str:
+    """A number without an exponent where it needs none: 10 for 1.0e1, 0.03 for 3.0e-2."""
+    if not re.fullmatch(r"-?\d+(\.\d+)?e[+-]?\d+", cell):
+        return cell
+    digits, exponent = cell.split("e")
+    if not -3 < int(exponent) < 5:
+        return f"{digits}e{int(exponent)}"
+    places = max(len(digits.partition(".")[2]) - int(exponent), 0)
+    return f"{float(cell):,.{places}f}"
+
+
 def markdown(header: Iterable[str], rows: Iterable[Iterable[str]]) -> list[str]:
     """A table in Markdown."""
     head = list(header)
-    return [f"| {' | '.join(line)} |" for line in [head, ["---"] * len(head), *map(list, rows)]]
+    return [f"| {' | '.join(line)} |" for line in [head, ["---"] * len(head), *([plain(cell) for cell in row] for row in rows)]]
 
 
 def scenes_accuracy() -> list[str]:
     """Errors and bounds of the example scenes."""
-    rows = ([r["scene"], r["method"], r["separatrix_ratio"], r["order"] or "–", r["harmonics"], r["error"], r["bound"]] for r in read("scenes.csv"))
+    rows = ([r["scene"], r["method"], r["separatrix_ratio"], r["order"], r["harmonics"], r["error"], r["bound"]] for r in read("scenes.csv"))
     return markdown(["scene", "method", "σ/σ_sep", "order", "harmonics", "error [rad]", "bound [rad]"], rows)
 
 
@@ -193,6 +205,82 @@ def gravity_spans() -> list[str]:
     return markdown(header, rows)
 
 
+def front() -> list[str]:
+    """Time, error and span in three lines."""
+    times = {
+        row["engine"]: float(row["whole_ns"])
+        for row in read("rivals-propagation.csv")
+        if (row["scene"], row["times"]) == ("apophis", "uneven") and row["whole_ns"] != "–"
+    }
+    beside = ", ".join(f"{name} {times[engine]:.3g} ns" for name, engine in (("heyoka at 1e-12", "heyoka 1e-12"), ("SciPy's closed form", "SciPy closed form")))
+    stress = [row for row in read("stress.csv") if row["check"] == "attitude"]
+    long = next(float(row["max"]) for row in stress if "1e9 rotations" in row["regime"])
+    scenes = sum(int(row["scenes"]) for row in stress)
+    rows = [
+        ["a sample of Apophis, set-up included, 100,000 uneven times", f"**{times['andoyer closed']:.2g} ns** ({beside})"],
+        [f"largest error of {scenes:,} random scenes", f"**{max(float(row['max']) for row in stress):.1e} rad**"],
+        ["largest error after up to 1e9 rotations", f"**{long:.1e} rad**"],
+    ]
+    return markdown(["what", "measured"], rows)
+
+
+def libration_rivals() -> list[str]:
+    """Librations beside the integration and heyoka at 1e-12, by scene and span."""
+    settings = {"first": "1e-09", "next": "1e-09", "integrated": "1e-09", "heyoka": "1e-12"}
+    cases: dict[tuple[str, str], dict[str, Row]] = {}
+    for row in read("libration-rivals.csv"):
+        if row["setting"] == settings[row["engine"]]:
+            cases.setdefault((row["case"], row["orbits"]), {})[row["engine"]] = row
+    rows = []
+    for (case, orbits), engines in cases.items():
+        cells = [case, f"{int(orbits):,}"]
+        for name, columns in (("first", ("error", "seconds")), ("next", ("seconds",)), ("integrated", ("error", "seconds")), ("heyoka", ("error", "seconds"))):
+            cells += [engines[name][column] if name in engines else "–" for column in columns]
+        rows.append(cells)
+    header = ["scene", "orbits", "libration: error [rad]", "first [s]", "next [s]", "integration: error", "time [s]", "heyoka: error", "time [s]"]
+    return markdown(header, rows)
+
+
+def libration_cost() -> list[str]:
+    """Cost and error of librations by eccentricity and order."""
+    header = ["e", "order", "first [s]", "next [s]", "harmonics", "a sample [ns]", "kept [MiB]", "error over 1,000 orbits [rad]"]
+    names = ("eccentricity", "order", "first_s", "next_s", "harmonics", "sample_ns", "kept_mib", "error")
+    return markdown(header, ([row[name] for name in names] for row in read("libration-cost.csv")))
+
+
+def rivals_partials() -> list[str]:
+    """Derivatives beside heyoka's variational equations."""
+    header = ["scene", "times", "`Motion.partials` [ns a time]", "heyoka [ns a time]", "ratio", "largest difference"]
+    return markdown(
+        header, ([row[name] for name in ("scene", "samples", "ours_ns", "heyoka_ns", "ratio", "difference")] for row in read("rivals-partials.csv"))
+    )
+
+
+def rivals_gradient() -> list[str]:
+    """The averaged theory beside heyoka's integration."""
+    header = [
+        "scene",
+        "times",
+        "set-up and first evaluation [µs]",
+        "a sample [ns]",
+        "heyoka: integration [µs]",
+        "a sample [ns]",
+        "ratio of the whole",
+        "error [rad]",
+        "heyoka",
+    ]
+    names = ("scene", "times", "first_us", "sample_ns", "heyoka_us", "heyoka_sample_ns", "ratio", "error", "heyoka_error")
+    return markdown(header, ([row[name] for name in names] for row in read("rivals-gradient.csv")))
+
+
+def rivals_integration() -> list[str]:
+    """The integration beside heyoka's."""
+    header = ["scenes", "ratio at our error", "ratio at the tolerance, 1e-10", "ours [ms]"]
+    return markdown(
+        header, ([row[name] for name in ("regime", "ratio_at_error", "ratio_at_tolerance", "milliseconds")] for row in read("rivals-integration.csv"))
+    )
+
+
 def light_curves() -> list[str]:
     """Light curves with known answers, found from random starts."""
     rows = read("light-curves.csv")
@@ -202,12 +290,18 @@ def light_curves() -> list[str]:
 TABLES: dict[str, Callable[[], list[str]]] = {
     "averaged-bodies": averaged_bodies,
     "ensemble": ensemble,
+    "front": front,
     "gravity-bounds": gravity_bounds,
     "gravity-cases": gravity_cases,
     "gravity-climb": gravity_climb,
     "gravity-spans": gravity_spans,
     "gravity-table": gravity_table,
+    "libration-cost": libration_cost,
+    "libration-rivals": libration_rivals,
     "light-curves": light_curves,
+    "rivals-gradient": rivals_gradient,
+    "rivals-integration": rivals_integration,
+    "rivals-partials": rivals_partials,
     "scenes-accuracy": scenes_accuracy,
     "scenes-speed": scenes_speed,
     "sweep-accuracy": sweep_accuracy,
