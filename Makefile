@@ -80,6 +80,7 @@ figures: $(VENV)/installed  ## every file of docs/data anew, in one run on a cle
 
 report: $(VENV)/ready  ## the figures of docs/speed.md with their picture, and the tables of the README, from docs/data, which must be of one run
 	$(BIN)/python benches/report.py
+	$(PYTHON) tests/release.py --write
 
 scenes: $(VENV)/installed  ## the example scenes and an ensemble: docs/data/scenes.csv and ensemble.csv
 	$(BIN)/python examples/demo.py --record

@@ -10,7 +10,7 @@ SCRIPTS = sorted((REPOSITORY / "examples/gallery").glob("*.py"), key=lambda path
 PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
 
 
-def test_there_are_the_eighteen_of_them():
+def test_there_are_the_nineteen_of_them():
     assert [path.stem.split("_", 2)[2] for path in SCRIPTS] == [
         "earth_wobble",
         "eros_separatrix",
@@ -30,6 +30,7 @@ def test_there_are_the_eighteen_of_them():
         "methods",
         "locked",
         "dead_satellite",
+        "flyby",
     ]
 
 
@@ -48,7 +49,7 @@ def test_record_writes_both_files(tmp_path, monkeypatch):
     monkeypatch.setattr(demo, "ENSEMBLE", (100, 2))
     (tmp_path / "docs/data").mkdir(parents=True)
     demo.record([["a body", "short-axis", "closed", "0.1", "–", "3", "1e-16", "1e-15", "3.0"]], tmp_path)
-    assert (tmp_path / "docs/data/scenes.csv").read_text().splitlines()[1] == "a body,short-axis,closed,0.1,,3,1e-16,1e-15,3.0"
+    assert (tmp_path / "docs/data/scenes.csv").read_text().splitlines()[1] == "a body,short-axis,closed,0.1,–,3,1e-16,1e-15,3.0"
     assert (tmp_path / "docs/data/ensemble.csv").read_text().splitlines()[2].startswith("100,2,2,")
 
 
