@@ -21,7 +21,9 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "matplotlib.sphinxext.plot_directive",
     "equations",
+    "cards",
     "measured",
+    "unbroken",
 ]
 exclude_patterns = ["_ext", "requirements.txt", "gallery/*.ipynb", "gallery/*.py", "**/sg_execution_times.rst", "sg_execution_times.rst"]
 default_role = "py:obj"
@@ -53,7 +55,7 @@ plot_formats = [("png", 110)]
 sphinx_gallery_conf = {
     "examples_dirs": "../examples/gallery",
     "gallery_dirs": "gallery",
-    "within_subsection_order": "by_number.ByNumber",
+    "within_subsection_order": "cards.ByNumber",
     "filename_pattern": "/plot_",
     "image_scrapers": ("matplotlib",),
     "abort_on_example_error": True,
@@ -64,6 +66,7 @@ sphinx_gallery_conf = {
     "remove_config_comments": True,
     "matplotlib_animations": False,
     "default_thumb_file": None,
+    "thumbnail_size": (800, 560),
 }
 
 

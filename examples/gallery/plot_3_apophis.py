@@ -2,7 +2,7 @@
 Apophis and its light curve
 ===========================
 
-Apophis tumbles. Its short axis precesses in 27.38 hours, and the body turns about this axis in 263 hours (Pravec et al. 2014). This example finds the state with these periods. It then computes
+Apophis tumbles: its short axis precesses in 27.38 hours, and the body turns about this axis in 263 hours (Pravec et al. 2014). This example finds the state with these periods. It then computes
 the periods in three conventions, the strongest line of the light curve, and the error of the series at each order.
 """
 
