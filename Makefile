@@ -257,8 +257,8 @@ release-check: package  ## versions, addresses and licences agree; public Rust n
 
 wheel: $(VENV)/installed
 
-# The wheel is rebuilt when any source of it is newer than the installation.
-SOURCES := Cargo.toml Cargo.lock README.md $(shell find crates -name '*.rs' -o -name '*.py' -o -name '*.pyi' -o -name '*.toml' -o -name '*.md')
+# The wheel is rebuilt when any source of it is newer than the installation: tests and the caches of tools are none.
+SOURCES := Cargo.toml Cargo.lock README.md $(shell find crates \( -name '.*' -o -name tests \) -prune -o \( -name '*.rs' -o -name '*.py' -o -name '*.pyi' -o -name '*.toml' -o -name '*.md' \) -print)
 $(VENV)/installed: $(VENV)/ready $(SOURCES)
 	rm -rf $(WHEELS)
 	$(BIN)/maturin build --release --locked --quiet --manifest-path crates/py/Cargo.toml --interpreter $(BIN)/python --out $(WHEELS)
