@@ -5,7 +5,7 @@
     python benches/figures.py --check            exit status 1 for an empty cell, a file that is not the measured one, several processors, or a commit that is not clean or not the same
     python benches/figures.py --check --fresh    and for files that were measured with other sources than those of today
 
-`sources` is a hash of the crates' Rust and Python sources, `digest` one of the file.
+`sources` is a hash of the crates' Rust and Python sources without Rust's comments, `digest` one of the file.
 """
 
 import argparse
@@ -38,17 +38,17 @@ PAGES = ("README.md", "docs/")
 """What the targets write."""
 
 
-def digest(files):
-    """The first digits of the SHA-256 of some files' contents."""
-    whole = hashlib.sha256()
-    for file in files:
-        whole.update(file.read_bytes())
-    return whole.hexdigest()[:16]
+def digest(file):
+    """The first digits of the SHA-256 of a file."""
+    return hashlib.sha256(file.read_bytes()).hexdigest()[:16]
 
 
 def sources(root=ROOT):
-    """The hash of the sources that the figures measure."""
-    return digest(sorted(file for pattern in SOURCES for file in root.glob(pattern)))
+    """The hash of the sources that the figures measure, without the comments of Rust."""
+    whole = hashlib.sha256()
+    for file in sorted(file for pattern in SOURCES for file in root.glob(pattern)):
+        whole.update(b"\n".join(line for line in file.read_bytes().splitlines() if not line.lstrip().startswith(b"//")))
+    return whole.hexdigest()[:16]
 
 
 def machine():
@@ -97,7 +97,7 @@ def faults(data=DATA, today=None):
         with files[name].open(encoding="utf-8", newline="") as file:
             for number, row in enumerate(csv.DictReader(file), 2):
                 found += [f"{name}, line {number}: {column} is empty" for column, cell in row.items() if not (cell or "").strip()]
-        if digest([files[name]]) != rows[name]["digest"]:
+        if digest(files[name]) != rows[name]["digest"]:
             found.append(f"{name} is not the file that was measured on {rows[name]['date']}")
         if rows[name]["commit"].endswith("-dirty"):
             found.append(f"{name} was measured with changes that are not committed: {rows[name]['commit']}")
@@ -122,7 +122,7 @@ def measure(targets):
         subprocess.run(["make", "--no-print-directory", target], cwd=ROOT, check=True)
         today = datetime.datetime.now(datetime.UTC).date().isoformat()
         for name in TARGETS[target]:
-            rows[name] = {"file": name, "target": target, **described, "date": today, "digest": digest([DATA / name])}
+            rows[name] = {"file": name, "target": target, **described, "date": today, "digest": digest(DATA / name)}
         kept = [row for name, row in sorted(rows.items()) if name in known]
         with PROVENANCE.open("w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, kept[0], lineterminator="\n")

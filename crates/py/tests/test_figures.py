@@ -63,7 +63,10 @@ def test_a_source_that_was_touched_is_found(figures, data, tmp_path):
     sources = shutil.copytree(REPOSITORY / "crates", tmp_path / "crates", ignore=shutil.ignore_patterns("tests", "__pycache__", "*.so", "target")).parent
     before = figures.sources(sources)
     assert before == figures.sources()
-    replaced(sources / "crates/propagate/src/lib.rs", "\n", "\n\n")
+    file = sources / "crates/propagate/src/lib.rs"
+    replaced(file, "\n", "\n// a comment\n")
+    assert figures.sources(sources) == before
+    replaced(file, "pub mod", "pub(crate) mod")
     rows = figures.provenance(data)
     after = figures.sources(sources)
     assert after != before
