@@ -119,7 +119,7 @@ def at_equal_error(rows):
                 cells.append(f"{float(best['whole_ms']):.3g}" if best else "not reached")
                 if best:
                     costs[engine] = float(best["whole_ms"])
-            lines.append([title, f"{error:.0e}", *cells, min(costs, key=costs.get)])
+            lines.append([title, f"{error:.0e}".replace("e-0", "e-"), *cells, min(costs, key=costs.get)])
     return table(["scene", "error [rad]", *(f"{engine} [ms]" for engine in CURVES), "fastest"], lines)
 
 
@@ -178,7 +178,9 @@ def between(path, text):
 
 def spread(values, digits=2):
     """The lowest and the highest number."""
-    low, high = (f"{value:.{digits}g}" for value in (min(values), max(values)))
+    low, high = (
+        f"{value:.{digits}g}".replace("e-0", "e-") if value < 10**digits else f"{float(f'{value:.{digits}g}'):,.0f}" for value in (min(values), max(values))
+    )
     return low if low == high else f"{low} to {high}"
 
 

@@ -212,12 +212,14 @@ def front() -> list[str]:
         for row in read("rivals-propagation.csv")
         if (row["scene"], row["times"]) == ("apophis", "uneven") and row["whole_ns"] != "–"
     }
-    beside = ", ".join(f"{name} {times[engine]:.3g} ns" for name, engine in (("heyoka at 1e-12", "heyoka 1e-12"), ("SciPy's closed form", "SciPy closed form")))
+    beside = ", ".join(
+        f"{name} {times[engine]:,.0f} ns" for name, engine in (("heyoka at 1e-12", "heyoka 1e-12"), ("SciPy's closed form", "SciPy closed form"))
+    )
     stress = [row for row in read("stress.csv") if row["check"] == "attitude"]
     long = next(float(row["max"]) for row in stress if "1e9 rotations" in row["regime"])
     scenes = sum(int(row["scenes"]) for row in stress)
     rows = [
-        ["a sample of Apophis, set-up included, 100,000 uneven times", f"**{times['andoyer closed']:.2g} ns** ({beside})"],
+        ["a sample of Apophis, set-up included, 100,000 uneven times", f"**{times['andoyer closed']:.1f} ns** ({beside})"],
         [f"largest error of {scenes:,} random scenes", f"**{max(float(row['max']) for row in stress):.1e} rad**"],
         ["largest error after up to 1e9 rotations", f"**{long:.1e} rad**"],
     ]
