@@ -60,7 +60,7 @@ def test_a_file_without_origin_and_one_that_is_gone_are_found(figures, data):
 
 
 def test_a_source_that_was_touched_is_found(figures, data, tmp_path):
-    sources = shutil.copytree(REPOSITORY / "crates", tmp_path / "crates", ignore=shutil.ignore_patterns("tests", "__pycache__", "*.so", "target")).parent
+    sources = shutil.copytree(REPOSITORY / "crates", tmp_path / "crates", ignore=shutil.ignore_patterns("__pycache__", "*.so", "target", ".*")).parent
     before = figures.sources(sources)
     assert before == figures.sources()
     file = sources / "crates/propagate/src/lib.rs"
