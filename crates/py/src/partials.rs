@@ -1,7 +1,8 @@
 //! `andoyer.Partials`.
 
-use andoyer_propagate::Motion;
 use andoyer_propagate::partials::Parameter;
+use andoyer_propagate::{Error, Motion};
+use num_bigint::BigInt;
 use numpy::{PyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -50,7 +51,7 @@ pub(crate) struct Partials {
 #[derive(FromPyObject)]
 enum Given {
     Name(String),
-    OfBody(String, usize),
+    OfBody(String, BigInt),
 }
 
 /// One parameter or several.
@@ -73,7 +74,13 @@ pub(crate) fn parameters(motion: &Motion, given: Option<&Bound<'_, PyAny>>) -> P
     };
     let found = given.iter().map(|given| match given {
         Given::Name(name) => motion.parameter(name, None),
-        Given::OfBody(name, index) => motion.parameter(name, Some(*index)),
+        Given::OfBody(name, index) => match usize::try_from(index) {
+            Ok(index) => motion.parameter(name, Some(index)),
+            Err(_) => Err(Error::Parameter {
+                value: format!("(\"{name}\", {index})"),
+                bound: "a pair of a name and the index of a disturbing body, from 0".to_owned(),
+            }),
+        },
     });
     found.collect::<Result<_, _>>().map_err(error::propagation)
 }

@@ -124,7 +124,9 @@ def test_derivatives_by_the_attraction_and_an_element_are_differences_of_motions
         ("orbit", andoyer.InputError, "several"),
         (("orbit", 2), andoyer.InputError, "from 0 to 1"),
         (("moments", 0), andoyer.InputError, "without an index"),
-        ([("orbit", -1)], TypeError, "name and index"),
+        ([("orbit", -1)], andoyer.InputError, "from 0"),
+        (("attraction", 2**64), andoyer.InputError, "from 0"),
+        (("orbit", 1.0), TypeError, "name and index"),
         (3, TypeError, "not 3"),
         ([None], TypeError, "not"),
     ],
@@ -143,6 +145,27 @@ def test_a_body_without_an_orbit_has_no_elements(motion):
     assert table.partials(1.0, with_respect_to="moments").attitude.shape == (3, 3)
     with pytest.raises(andoyer.InputError, match="table"):
         table.partials(1.0, with_respect_to="attraction")
+
+
+def test_derivatives_of_a_libration_far_from_its_epoch_are_those_of_the_integration():
+    scene = Scene(
+        Body([0.99, 0.996, 1.0]),
+        [0.0, 0.0, 0.004, math.sqrt(1 - 0.004**2)],
+        [0, 0, 1],
+        orbit=Orbit(1.0, 0.01),
+        span=(0, 4e4),
+        tolerance=1e-8,
+        method="libration",
+    )
+    motion = scene.solve()
+    columns = ["attitude", "angular_velocity", "orbit"]
+    near, far = (motion.partials(time, with_respect_to=columns).attitude for time in (1e3, 4e4))
+    integrated = Scene(
+        Body(scene.body.moments), scene.attitude, scene.angular_velocity, orbit=scene.orbit, span=(0, 4e4), method="integrated", tolerance=1e-6
+    ).solve()
+    for found, time in ((near, 1e3), (far, 4e4)):
+        truth = integrated.partials(time, with_respect_to=columns).attitude
+        assert (abs(found - truth).max(0) / abs(truth).max(0)).max() < 1e-4
 
 
 def test_a_body_of_nearly_no_attraction_has_derivatives_by_its_attraction():

@@ -1,20 +1,22 @@
-//! Derivatives of an averaged motion far from its epoch, from differences of solved motions.
+//! Derivatives of an averaged motion or a libration far from its epoch, from differences of solved motions.
 //!
 //! They are central differences of fourth order. A step turns the body by [`STEP`] at the most distant time. The truncation error is STEP⁴/30 of the largest
 //! derivative, 3e-10. The rounding error of a solution, 1e-13, divided by the step is as large; for an element of the orbit it is larger by one over the effect of the
 //! torque. Derivatives of the mean motion alone would lack those of the short-period corrections, which have the size of the torque. One call solves four motions for
 //! each column, for any number of times.
 
+use std::sync::atomic::AtomicBool;
+
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::error::Error;
-use crate::input::options::Method;
 use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::integration::variation::{ForcedColumn, PartialsRows};
 use crate::motion::solved::Motion;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
+use crate::torque_free::series::tables::SeriesTables;
 
 /// Angle by which a step turns the body or its orbit at the most distant time \[rad\].
 const STEP: f64 = 1e-2;
@@ -31,13 +33,15 @@ pub(super) fn fill(
     columns: &[ForcedColumn],
     times: &[f64],
     outputs: PartialsRows<'_>,
+    stop: &AtomicBool,
 ) -> Result<(), Error> {
-    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance())).method(Method::Closed);
-    let scene = match motion.plan.averaging() {
+    let plan = motion.plan();
+    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance())).method(plan.method());
+    let scene = match plan.averaging() {
         Some(averaging) => scene.averaging(averaging),
-        None => scene,
+        None => scene.order(plan.order()),
     };
-    let mut samples = Samples::new(times.len());
+    let mut samples = Samples::new(times.len(), stop);
     samples.evaluate(&scene, times)?;
     let origins = samples.attitudes.clone();
     let [attitudes, rates] = outputs;
@@ -61,19 +65,22 @@ pub(super) fn fill(
     Ok(())
 }
 
-/// Attitudes and rates of one motion.
-struct Samples {
+/// Attitudes and rates of one motion after the other.
+struct Samples<'a> {
     attitudes: Vec<[f64; 4]>,
     rates: Vec<[f64; 3]>,
+    tables: SeriesTables,
+    stop: &'a AtomicBool,
 }
 
-impl Samples {
-    fn new(times: usize) -> Self {
-        Self { attitudes: vec![[0.0; 4]; times], rates: vec![[0.0; 3]; times] }
+impl<'a> Samples<'a> {
+    fn new(times: usize, stop: &'a AtomicBool) -> Self {
+        Self { attitudes: vec![[0.0; 4]; times], rates: vec![[0.0; 3]; times], tables: SeriesTables::default(), stop }
     }
 
     fn evaluate(&mut self, scene: &Scene, times: &[f64]) -> Result<(), Error> {
-        scene.solve()?.samples_into(times, &mut self.attitudes, &mut self.rates)
+        let motion = scene.solve_until(&self.tables, self.stop)?;
+        motion.batch().until(self.stop).samples_into(times, &mut self.attitudes, &mut self.rates)
     }
 }
 

@@ -68,6 +68,7 @@ impl Motion {
             ("attitude", None) => Ok(Parameter::Attitude),
             ("angular_velocity", None) => Ok(Parameter::AngularVelocity),
             ("moments", None) => Ok(Parameter::Moments),
+            ("orbit" | "attraction", _) if bodies == 0 => refused("absent in a scene without a disturbing body"),
             ("orbit" | "attraction", None) if bodies > 1 => {
                 refused("a pair of name and index, such as (\"orbit\", 0), with several disturbing bodies")
             }

@@ -71,12 +71,17 @@ pub(crate) fn dispatch<T: Task>(arch: Arch, task: T) -> T::Output {
     }
 }
 
-/// Runs a task whose work has rows of eight lanes or fewer. Wide vectors divide and take roots at half the speed, and the bits are the same.
+/// Runs a task whose work has rows of eight lanes or fewer. Wide vectors divide and take roots at half the speed, and the bits are the same; the task
+/// is not compiled for them.
 pub(crate) fn dispatch_few<T: Task>(arch: Arch, task: T) -> T::Output {
     match arch {
         #[cfg(target_arch = "x86_64")]
-        Arch::V4(simd) => dispatch(Arch::V3(*simd), task),
-        _ => dispatch(arch, task),
+        Arch::V4(simd) => (*simd).vectorize(On(*simd, task)),
+        #[cfg(target_arch = "x86_64")]
+        Arch::V3(simd) => simd.vectorize(On(simd, task)),
+        #[cfg(target_arch = "aarch64")]
+        Arch::Neon(simd) => simd.vectorize(On(simd, task)),
+        _ => On(pulp::Scalar, task).call(),
     }
 }
 

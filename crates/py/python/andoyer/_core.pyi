@@ -471,7 +471,7 @@ class Plan:
         """The first neglected term of the gravity gradient, in rad: a short-period term of second order in the torque, which no level has, or one of first order that was dropped; 0 without an orbit."""
     @property
     def partials(self) -> Literal["closed", "series", "variational"] | None:
-        """The method of `Motion.partials`: "closed" (theory §12); "series", power series in time where the closed form cancels: next to a sphere, to the separatrix and to the middle axis, and for a body from a tensor also with nearly equal moments; "variational" equations, integrated from the epoch, for a scene with a torque (farther from the epoch of an averaged motion than 2,500 steps, some 200 rotations, differences of fourth order, with an error of some 1e-9 of the largest derivative, for an element of an orbit 1e-9 to 1e-6); or None on the separatrix, where the derivatives do not exist."""
+        """The method of `Motion.partials`: "closed" (theory §12); "series", power series in time where the closed form cancels: next to a sphere, to the separatrix and to the middle axis, and for a body from a tensor also with nearly equal moments; "variational" equations, integrated from the epoch, for a scene with a torque (farther from the epoch of an averaged motion than 2,500 steps, some 200 rotations, and of a libration than 1e5 steps, differences of fourth order of motions by the same theory, with an error of some 1e-9 of the largest derivative; with respect to an element of an orbit the error of the theory counts, up to 3e-5); or None on the separatrix, where the derivatives do not exist."""
     @property
     def skipped(self) -> list[str]:
         """The steps that this scene did not need, with the reasons: a list of str."""

@@ -95,9 +95,9 @@ impl<'py> Times<'py> {
         self.given.clone().map(Bound::unbind)
     }
 
-    /// The same for derivatives.
+    /// The same for derivatives. Under a torque they take as long as the way from the epoch, for one time too.
     pub(crate) fn long_partials(&self) -> bool {
-        self.leading.iter().product::<usize>() >= LONG_PARTIALS || self.long()
+        self.disturbed || self.leading.iter().product::<usize>() >= LONG_PARTIALS || self.long()
     }
 
     /// True if the evaluation at these times may be a long call, which Ctrl-C must end.
