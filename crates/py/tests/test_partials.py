@@ -1,6 +1,7 @@
 """Derivatives with respect to the state and the moments: shapes, agreement with differences, errors, pickling."""
 
 import json
+import math
 import pickle
 
 import numpy as np
