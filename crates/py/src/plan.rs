@@ -123,7 +123,7 @@ impl Plan {
         self.0.first_neglected()
     }
 
-    /// The method of `Motion.partials`: "closed" (theory §12); "series", power series in time where the closed form cancels: next to a sphere, to the separatrix and to the middle axis, and for a body from a tensor also with nearly equal moments; "variational" equations, integrated from the epoch, for a scene with a torque (farther from the epoch of an averaged motion than 2,500 steps, some 200 rotations, and of a libration than 1e5 steps, differences of fourth order of motions by the same theory, with an error of some 1e-9 of the largest derivative; with respect to an element of an orbit the error of the theory counts, up to 3e-5); or None on the separatrix, where the derivatives do not exist.
+    /// The method of `Motion.partials`: "closed" (theory §12); "series", power series in time where the closed form cancels: next to a sphere, to the separatrix and to the middle axis, and for a body from a tensor also with nearly equal moments; "variational" equations, integrated from the epoch, for a scene with a torque (farther from the epoch of an averaged motion than 2,500 steps, some 200 rotations, differences of fourth order of motions by the same theory, with an error of some 1e-9 of the largest derivative; with respect to an element of an orbit the error of the theory counts, up to 3e-5); or None on the separatrix, where the derivatives do not exist.
     #[getter]
     fn partials(&self) -> Option<&'static str> {
         self.0.partials()

@@ -148,25 +148,14 @@ def test_a_body_without_an_orbit_has_no_elements(motion):
         table.partials(1.0, with_respect_to="attraction")
 
 
-def test_derivatives_of_a_libration_far_from_its_epoch_are_those_of_the_integration():
-    scene = Scene(
-        Body([0.99, 0.996, 1.0]),
-        [0.0, 0.0, 0.004, math.sqrt(1 - 0.004**2)],
-        [0, 0, 1],
-        orbit=Orbit(1.0, 0.01),
-        span=(0, 4e4),
-        tolerance=1e-8,
-        method="libration",
-    )
-    motion = scene.solve()
-    columns = ["attitude", "angular_velocity", "orbit"]
-    near, far = (motion.partials(time, with_respect_to=columns).attitude for time in (1e3, 4e4))
-    integrated = Scene(
-        Body(scene.body.moments), scene.attitude, scene.angular_velocity, orbit=scene.orbit, span=(0, 4e4), method="integrated", tolerance=1e-6
-    ).solve()
-    for found, time in ((near, 1e3), (far, 4e4)):
-        truth = integrated.partials(time, with_respect_to=columns).attitude
-        assert (abs(found - truth).max(0) / abs(truth).max(0)).max() < 1e-4
+def test_derivatives_of_a_libration_are_those_of_the_integration():
+    state = ([0.0, 0.0, 0.004, math.sqrt(1 - 0.004**2)], [0, 0, 1])
+    made = {
+        method: Scene(Body([0.99, 0.996, 1.0]), *state, orbit=Orbit(1.0, 0.01), span=(0, 1e3), tolerance=1e-7, method=method)
+        for method in ("libration", "integrated")
+    }
+    one, other = (scene.solve().partials(1e3, with_respect_to=["attitude", "orbit"]).attitude for scene in made.values())
+    np.testing.assert_array_equal(one, other)
 
 
 def test_a_body_of_nearly_no_attraction_has_derivatives_by_its_attraction():

@@ -255,7 +255,7 @@ impl Plan {
     /// - "series": power series in time. They replace the closed form where it cancels: next to a sphere, to the separatrix and to the middle axis, and for a body
     ///   from a tensor also with nearly equal moments.
     /// - "variational": variational equations, integrated from the epoch, for a scene with a torque. Farther from the epoch of an averaged motion than 2,500 steps, some
-    ///   200 rotations, and of a libration than 1e5 steps, they are differences of fourth order of motions by the same theory. Their error is some 1e-9 of the largest
+    ///   200 rotations, they are differences of fourth order of motions by the same theory. Their error is some 1e-9 of the largest
     ///   derivative; with respect to an element of an orbit the error of the theory counts, up to 3e-5 in random scenes.
     ///
     /// It is `None` on the separatrix, where the frequencies have no derivatives.

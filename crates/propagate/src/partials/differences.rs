@@ -1,4 +1,4 @@
-//! Derivatives of an averaged motion or a libration far from its epoch, from differences of solved motions.
+//! Derivatives of an averaged motion far from its epoch, from differences of solved motions.
 //!
 //! They are central differences of fourth order. A step turns the body by [`STEP`] at the most distant time. The truncation error is STEP⁴/30 of the largest
 //! derivative, 3e-10. The rounding error of a solution, 1e-13, divided by the step is as large; for an element of the orbit it is larger by one over the effect of the
@@ -10,6 +10,7 @@ use std::sync::atomic::AtomicBool;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::error::Error;
+use crate::input::options::Method;
 use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::integration::variation::{ForcedColumn, PartialsRows};
@@ -35,11 +36,10 @@ pub(super) fn fill(
     outputs: PartialsRows<'_>,
     stop: &AtomicBool,
 ) -> Result<(), Error> {
-    let plan = motion.plan();
-    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance())).method(plan.method());
-    let scene = match plan.averaging() {
+    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance())).method(Method::Closed);
+    let scene = match motion.plan.averaging() {
         Some(averaging) => scene.averaging(averaging),
-        None => scene.order(plan.order()),
+        None => scene,
     };
     let mut samples = Samples::new(times.len(), stop);
     samples.evaluate(&scene, times)?;

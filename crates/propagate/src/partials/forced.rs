@@ -1,5 +1,4 @@
-//! Derivatives of motions under torques: by the variational equations of an integration, or, far from the epoch of an averaged motion or a libration,
-//! by differences.
+//! Derivatives of motions under torques: by the variational equations of an integration, or, far from the epoch of an averaged motion, by differences.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -8,15 +7,12 @@ use super::differences;
 use super::displacement::ELEMENTS;
 use super::parameters::Parameter;
 use crate::error::Error;
-use crate::input::options::Method;
 use crate::integration::variation::{self, ForcedColumn, PartialsRows};
 use crate::motion::batch::Batch;
 use crate::motion::solved::Motion;
 
 /// Beyond so many steps the derivatives of an averaged motion are differences of solved motions: four for each column, 8 ms for nine columns over 1,000 rotations.
 const MOST_STEPS: f64 = 2.5e3;
-/// The same for a libration, whose normal forms for other bodies and orbits take up to a second each.
-const MOST_STEPS_OF_A_LIBRATION: f64 = 1e5;
 
 impl Batch<'_> {
     /// The derivatives of a motion under torques with respect to chosen parameters, (n, 3, columns).
@@ -50,12 +46,7 @@ impl Batch<'_> {
         let ends = [f64::min, f64::max].map(|end| times.iter().copied().fold(motion.scene.state().epoch, end));
         let scene = motion.scene.clone().span(ends[0], ends[1]);
         let own = outputs.each_mut().map(|output| &mut **output);
-        let most = match motion.plan.method() {
-            Method::Integrated => f64::INFINITY,
-            Method::Libration => MOST_STEPS_OF_A_LIBRATION,
-            _ => MOST_STEPS,
-        };
-        if variation::steps(&scene) > most {
+        if motion.plan.averaging().is_some() && variation::steps(&scene) > MOST_STEPS {
             differences::fill(motion, columns, &times, own, self.stop())?;
         } else {
             variation::fill(&scene, columns, &times, own, self.stop())?;
