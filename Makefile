@@ -6,7 +6,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
+.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost libration-reach bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -87,6 +87,11 @@ scenes: $(VENV)/installed  ## the example scenes and an ensemble: docs/data/scen
 
 light-curves: $(VENV)/installed  ## light curves with known answers: docs/data/light-curves.csv; some minutes
 	$(BIN)/python benches/light_curves.py
+
+libration-reach: $(VENV)/installed  ## the share of random locked scenes that are served: docs/data/libration-reach.csv and its picture; some minutes
+	cargo build --release --quiet --package andoyer-tests --features programs --bin libration
+	target/release/libration reach 300 1 > docs/data/libration-reach.csv
+	$(BIN)/python benches/libration_reach.py
 
 libration-cost: $(VENV)/installed  ## librations by order and eccentricity: docs/data/libration-cost.csv and its picture; some minutes
 	$(BIN)/python benches/libration_cost.py
