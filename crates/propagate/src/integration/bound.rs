@@ -26,7 +26,7 @@ use crate::simd::instruction_set::{InstructionSet, Task};
 
 /// Least and largest safety factor: the bound is the largest distance of the displaced states times a number in this interval.
 pub(super) const SAFETY: [f64; 2] = [2.0, 8.0];
-/// Times at which the two are compared.
+/// Times at which the motion and the displaced states are compared.
 const COMPARISONS: usize = 256;
 /// Relative rounding error of the integrals of the free motion, computed from rounded rates.
 const DRIFT: f64 = 1e-15;

@@ -102,8 +102,8 @@ impl Conic {
     /// The derivatives of the series with respect to the six elements: mean motion, eccentricity, time of pericentre, inclination, node, argument of pericentre. What
     /// the orbit was given with is held: its attraction, or the mass fraction.
     ///
-    /// The plane's angles turn r̃ about axis 3, about the node and about the normal. With M the derivative is r̃′/n of a fixed ellipse, and with e at fixed M, where
-    /// ∂E/∂e = sin E/ρ,
+    /// The plane's angles turn r̃ about axis 3, about the node and about the normal. The derivative with respect to the mean anomaly is r̃′/n, the
+    /// ellipse fixed. That with respect to e, the mean anomaly fixed, uses ∂E/∂e = sin E/ρ:
     ///
     /// ```text
     /// ∂x/∂e = −1 − sin²E/ρ,   ∂y/∂e = (−e sin E + η² cos E sin E/ρ)/η,   ∂ρ/∂e = −x/ρ

@@ -1,4 +1,5 @@
-//! A disturbing body of an integration: the series of r̃ = √(3μ) ρ^(−5/2) r about a time, whose products with itself are the torque. It comes from an orbit
+//! A disturbing body of an integration: the series of r̃ = √(3μ) ρ^(−5/2) r about a time, whose products with itself are the gravity gradient's torque;
+//! for the source of another torque the power of ρ is that torque's. It comes from an orbit
 //! ([`super::conic`]) or from a table ([`super::interpolation`]).
 
 use std::sync::Arc;

@@ -32,7 +32,7 @@ pub(super) struct Equations<const W: usize> {
     /// The torques beside the gravity gradient, and their factor in each state.
     pub(super) torques: Option<Arc<Torques>>,
     share: StateLanes<W>,
-    /// √(3 Σμ) at the mean distance. Errors of rates are relative to this rate at least.
+    /// The rate of the torques where they are weakest: √(3 Σμ) at the largest distance, and that of the other torques. Errors of rates are relative to this rate at least.
     pub(super) scale: f64,
 }
 
@@ -49,7 +49,7 @@ impl Equations<4> {
     }
 
     /// The equations of several states with displaced constants. `errors` has the relative errors of the ratios of the moments and of each torque; each state
-    /// has signs of its own.
+    /// has factors of its own.
     pub(super) fn displaced<const W: usize>(&self, [ratios, torques]: [f64; 2], signs: &[Row]) -> Equations<W> {
         let factors = std::array::from_fn(|i| self.factors[i % 4] * (1.0 + ratios * signs[i / 4][i % 4]));
         // The fourth entries are 0: each body and each axis has one of the first three.

@@ -49,7 +49,7 @@ pub(crate) struct Integrated {
     /// The first and the last time from the epoch, in the user's unit.
     pub(crate) reach: [f64; 2],
     pub(crate) error: f64,
-    /// As in the plan.
+    /// The bound without the interpolation of a table, if the interpolation dominates it.
     uninterpolated: Option<f64>,
     torques: usize,
 }
@@ -124,7 +124,7 @@ impl Integrated {
     }
 }
 
-/// A guess of the error bound, and how many steps there will be at most: for the choice of a method.
+/// A guess of the error bound, and about how many steps there will be: for the choice of a method.
 ///
 /// The guess has the parts of the bound that a regular motion has without truncation errors: the rounded state at the epoch, and the rounding of ω × Iω in each
 /// step. The errors of the rates add up by chance and turn the body ever after. For scenes of which the theory holds the guess is 0.7 of the bound in the
@@ -145,7 +145,7 @@ pub(crate) fn verification_cost(scene: &Scene) -> Option<VerificationCost> {
     }
     let ((start, stop), epoch) = (scene.asked_span()?, scene.state().epoch);
     let sides = [(epoch - start).max(0.0), (stop - epoch).max(0.0)];
-    // `prospect` counts the steps on the longer side.
+    // `prospect` counts the rotation on the longer side, and the passages on both.
     let (_, steps) = prospect(scene)?;
     let longer = sides[0].max(sides[1]).max(f64::MIN_POSITIVE);
     Some(VerificationCost { steps: steps * (sides[0] + sides[1]) / longer, bodies })
@@ -234,7 +234,7 @@ impl Problem {
         longest * x.hypot(y).hypot(z).max(self.equations.scale)
     }
 
-    /// How many steps there will be at most: by the fastest of the rates that last, and by the passages of the pericentres, where a step is e^−2 of the radius
+    /// About how many steps there will be: by the fastest of the rates that last, and by the passages of the pericentres, where a step is e^−2 of the radius
     /// of convergence or more.
     pub(super) fn most_steps(&self) -> f64 {
         let longest = self.ends[0].0.abs().max(self.ends[1].0.abs());

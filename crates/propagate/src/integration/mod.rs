@@ -2,10 +2,10 @@
 //!
 //! A step expands the motion about its start ([`expansion`]) and is as long as the last two coefficients allow (Jorba and Zou, Exp. Math. 14 (2005) 99, eqs.
 //! 3-7 and 3-8). The steps are kept ([`integrator`]), and a time is evaluated by the series of the step that contains it ([`dense`]). Integrations from
-//! displaced states measure the error ([`bound`]). At equal error the integration with its error bound takes 1.04 to 1.5 times the time of heyoka, which has no
+//! displaced states measure the error ([`bound`]). At equal error the integration with its error bound takes 0.99 to 1.2 times the time of heyoka, which has no
 //! bound, without its compilation, and about three times for a chaotic motion that misses its tolerance (`make rivals-integration`, benches/README.md).
 //!
-//! Imports errors, numerics, simd, orbit, torque and input.
+//! Imports errors, numerics, simd, orbit, torque, input and motion.
 
 mod bound;
 mod conic;

@@ -59,7 +59,7 @@ pub(crate) enum ForcedColumn {
 /// The derivatives of attitude and rates, (n, 3, columns) each.
 pub(crate) type PartialsRows<'a> = [&'a mut [f64]; 2];
 
-/// How many steps the motion of a scene takes at most over its span; infinite if it cannot be integrated.
+/// About how many steps the motion of a scene takes over its span; infinite if it cannot be integrated.
 pub(crate) fn steps(scene: &Scene) -> f64 {
     Problem::new(scene, "").map_or(f64::INFINITY, |problem| problem.most_steps())
 }

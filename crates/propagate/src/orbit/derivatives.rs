@@ -16,7 +16,7 @@ use crate::simd::unit_powers::UnitPowers;
 
 /// Number of functions in G: g and its time derivatives.
 pub(crate) const ORDERS: usize = 7;
-/// Number of multiples of f, from 0, in the expanded derivatives. G has `ORDERS` of them; one more gives the truncation error.
+/// Number of multiples of f, from 0, in the expanded derivatives. G uses `ORDERS` derivatives; one more gives the truncation error.
 const EXPANDED: usize = 6 + 2 * ORDERS;
 /// Multiples of f, from 0, in the polynomials without ϱ³ if the pericentre precesses. If it is fixed there are at most `ORDERS` + 3.
 const MULTIPLES: usize = 3 + 2 * ORDERS;

@@ -1,6 +1,7 @@
 //! Derivatives of an averaged motion far from its epoch, from differences of solved motions.
 //!
-//! They are central differences of fourth order. A step turns the body by [`STEP`] at the most distant time. The truncation error is STEP⁴/30 of the largest
+//! They are central differences of fourth order. A step turns the body by [`STEP`] at the most distant time, or is a part
+//! [`LARGEST`] of its parameter if that is less. The truncation error is STEP⁴/30 of the largest
 //! derivative, 3e-10. The rounding error of a solution, 1e-13, divided by the step is as large; for an element of the orbit it is larger by one over the effect of the
 //! torque. Derivatives of the mean motion alone would lack those of the short-period corrections, which have the size of the torque. One call solves four motions for
 //! each column, for any number of times.

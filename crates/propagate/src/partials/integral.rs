@@ -1,4 +1,4 @@
-//! The only integral that the derivatives need: ∫g2² dt, an elliptic integral of the second kind (theory §12).
+//! The only integral that the closed form needs: ∫g2² dt, an elliptic integral of the second kind (theory §12).
 //!
 //! g2² is proportional to sn² v with v = (2K/π)(ℓ′ − π/2). Its mean is (1 − E/K)/m. The integral of the remaining periodic part is Jacobi's zeta function:
 //!

@@ -33,7 +33,7 @@ pub(super) struct PartialsPlace<S: InstructionSet> {
 
 /// A type of motion: gives attitude, rates and their derivatives from the time since the epoch.
 pub(super) trait PartialsSource {
-    /// ParameterConstants with a parameter in each lane.
+    /// The constants or vectors of the parameters, one parameter in each lane.
     type Columns<S: InstructionSet>: Copy;
     /// Whether several times are computed at once.
     const VECTORS: bool = true;
