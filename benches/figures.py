@@ -34,7 +34,7 @@ TARGETS = {
     "stress": ["stress.csv"],
 }
 SOURCES = ("crates/*/src/**/*.rs", "crates/py/python/**/*.py")
-PAGES = ("README.md", "docs/")
+PAGES = ("README.md", "benches/README.md", "crates/py/README.md", "docs/")
 """What the targets write."""
 
 

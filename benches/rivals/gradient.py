@@ -13,7 +13,6 @@ heyoka compiles the equations of each body and orbit when an integrator is made 
 """
 
 import argparse
-import csv
 import math
 import os
 import random
@@ -33,6 +32,7 @@ import andoyer
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "reference"))
 
 from gravity_gradient import GravityGradient, _plane
+from written import write
 
 ROTATIONS = 1000
 TOLERANCE, FINEST = 1e-12, 1e-17
@@ -199,10 +199,7 @@ def main():
         lines.append("| " + " | ".join(rows[-1]) + " |")
         print(lines[-1], file=sys.stderr, flush=True)
     print("\n".join(lines))
-    if arguments.output:
-        with arguments.output.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerows([COLUMNS.split(), *([cell or "–" for cell in row] for row in rows)])
+    write(arguments.output, COLUMNS.split(), rows)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,6 @@ tolerance. The engines take turns. A ratio, heyoka / andoyer, is the median of t
 """
 
 import argparse
-import csv
 import math
 import os
 import sys
@@ -25,6 +24,7 @@ os.environ["RAYON_NUM_THREADS"] = "1"
 
 import heyoka as hy
 import numpy as np
+from written import write
 
 import andoyer
 
@@ -253,9 +253,7 @@ def main():
         )
     text = "\n".join(lines)
     print(text)
-    if asked.output:
-        with asked.output.open("w", encoding="utf-8", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows([["regime", "ratio_at_tolerance", "ratio_at_error", "milliseconds", "compilation_s"], *rows])
+    write(asked.output, ["regime", "ratio_at_tolerance", "ratio_at_error", "milliseconds", "compilation_s"], rows)
     sys.exit(bool(bad))
 
 

@@ -8,7 +8,6 @@ a process, "next" that of another state of a body and orbit whose normal forms a
 """
 
 import argparse
-import csv
 import math
 import os
 import subprocess
@@ -22,6 +21,7 @@ os.environ["RAYON_NUM_THREADS"] = "1"
 import heyoka as hy
 import numpy as np
 from integration import Reference, apart, equations, parameters, rotation
+from written import write
 
 import andoyer
 
@@ -127,12 +127,8 @@ def main():
                 itself = engine == "integrated" and orbits > EXTENDED
                 error = math.nan if itself else apart(found, exact).max()
                 print(f"{case:18s} {orbits:7d} orbits  {engine:10s} {setting:8s} error {error:.1e} rad  {1e3 * least:10.2f} ms", flush=True)
-                rows.append([case, orbits, engine, setting, "–" if itself else f"{error:.2e}", f"{least:.5g}"])
-    if asked.output:
-        with asked.output.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(["case", "orbits", "engine", "setting", "error", "seconds"])
-            writer.writerows(rows)
+                rows.append([case, orbits, engine, setting, None if itself else f"{error:.2e}", f"{least:.5g}"])
+    write(asked.output, ["case", "orbits", "engine", "setting", "error", "seconds"], rows)
     return 0
 
 

@@ -9,7 +9,6 @@ Exit status 1 for a wrong answer.
 """
 
 import argparse
-import csv
 import datetime
 import gc
 import os
@@ -29,6 +28,7 @@ import algebras
 import answers
 import energy
 import triangle
+from written import write
 
 import andoyer
 
@@ -164,11 +164,7 @@ def main():
     print("\n".join(lines))
     options.output.mkdir(parents=True, exist_ok=True)
     (options.output / "rivals.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    if options.data:
-        with options.data.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(Row._fields)
-            writer.writerows([f"{cell:.4g}" if isinstance(cell, float) else "–" if cell is None else cell for cell in row] for row in rows)
+    write(options.data, Row._fields, rows)
     return 0
 
 

@@ -8,7 +8,6 @@ and each derivative of andoyer is compared with that of heyoka. heyoka's compila
 """
 
 import argparse
-import csv
 import os
 import warnings
 from pathlib import Path
@@ -19,6 +18,7 @@ import heyoka
 import integration
 import numpy as np
 from propagators import cpu
+from written import write
 
 import andoyer
 
@@ -93,9 +93,7 @@ def main(options):
         nanoseconds = [f"{seconds / len(times) * 1e9:.0f}" for seconds in (theirs, ours)]
         rows.append([name, len(times), *nanoseconds, f"{theirs / ours:.1f}", f"{max(differences):.0e}"])
         print("| " + " | ".join(map(str, rows[-1])) + " |", flush=True)
-    if options.output:
-        with options.output.open("w", encoding="utf-8", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows([COLUMNS.split(), *rows])
+    write(options.output, COLUMNS.split(), rows)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,6 @@ the first access to a term, which converts the coefficients of andoyer from mach
 """
 
 import argparse
-import csv
 import datetime
 import os
 import platform
@@ -21,6 +20,8 @@ from collections import namedtuple
 from importlib.metadata import version
 from pathlib import Path
 from statistics import median
+
+from written import write
 
 Task = namedtuple("Task", "variables factors power terms exponents coefficient")
 Answer = namedtuple("Answer", "processor clock terms reading coefficient")
@@ -223,11 +224,7 @@ def main():
     print("\n".join(lines))
     options.output.mkdir(parents=True, exist_ok=True)
     (options.output / "products.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    if options.data:
-        with options.data.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(Row._fields)
-            writer.writerows([f"{cell:.4g}" if isinstance(cell, float) else "–" if cell is None else cell for cell in row] for row in rows)
+    write(options.data, Row._fields, rows)
     return 0
 
 

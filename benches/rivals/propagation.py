@@ -8,7 +8,6 @@ Markdown; the rows to --data as CSV. Exit status 1 for a wrong answer.
 """
 
 import argparse
-import csv
 import datetime
 import os
 import platform
@@ -22,6 +21,7 @@ os.environ["RAYON_NUM_THREADS"] = "1"
 
 import motions
 import propagators
+from written import write
 
 OWN = "andoyer closed"
 RATES, RATES_STORE = "andoyer rates alone", "store of 3"
@@ -183,11 +183,7 @@ def main():
     print("\n".join(lines))
     options.output.mkdir(parents=True, exist_ok=True)
     (options.output / "propagation.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    if options.data:
-        with options.data.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(Row._fields)
-            writer.writerows([f"{cell:.4g}" if isinstance(cell, float) else cell or "–" for cell in row] for row in table)
+    write(options.data, Row._fields, table)
     return 0
 
 

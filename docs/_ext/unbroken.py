@@ -18,7 +18,8 @@ def unbroken(_app: Sphinx, document: nodes.document) -> None:
             entry["classes"].append("unbroken")
     for text in list(document.findall(nodes.Text)):
         parent = text.parent
-        if isinstance(parent, nodes.paragraph) and NUMBER.search(text):
+        whole = isinstance(parent, nodes.paragraph) and "unbroken" not in parent.parent.get("classes", [])
+        if whole and NUMBER.search(text):
             parts = [nodes.inline(part, part, classes=["unbroken"]) if NUMBER.fullmatch(part) else nodes.Text(part) for part in NUMBER.split(text) if part]
             parent.replace(text, parts)
 

@@ -12,9 +12,8 @@ import numpy as np
 import andoyer
 
 # %%
-# The orbit is a hyperbola about the Earth in the ecliptic of J2000, with the elements at the pericentre, JD 2462240.40709 TDB. The frame has a second source: the asymptote points to longitude 42.2°, latitude
-# 16.2°, and so does the velocity of Apophis less that of the Earth, from the orbit about the Sun at its node (0.9225 au, e = 0.19152, i = 3.3368°, argument 126.65°; JPL's solution 218).
-# Time is in hours from the pericentre. The torque is even in the direction, so the Earth's place and its opposite are the same.
+# The orbit is a hyperbola about the Earth, in the ecliptic of J2000, with the elements at the pericentre, JD 2462240.40709 TDB. Time is in hours from the pericentre. The torque is even in the direction, so the
+# Earth's place and its opposite are the same.
 
 GM = 398600.4418 * 3600.0**2  # km³ / h²
 q, e = 38011.48649, 4.253901873
@@ -24,9 +23,34 @@ earth = andoyer.Orbit(
 )
 hours = np.array([-24.0, -2.0, 0.0])
 print("distance at −24, −2 and 0 h:", np.linalg.norm(earth.position(hours), axis=1).round(), "km")
-before, now = earth.position([-400.0, -399.9])
-inwards = (now - before) / np.linalg.norm(now - before)
-print(f"inwards along longitude {np.degrees(np.arctan2(inwards[1], inwards[0])):.1f}°, latitude {np.degrees(np.arcsin(inwards[2])):.1f}°")
+
+
+# %%
+# Is the frame right? Far away the velocity of the hyperbola must be that of Apophis less that of the Earth, from their orbits about the Sun where Apophis crosses the ecliptic at its ascending node. Its
+# elements are those of JPL's solution 218 (Horizons, epoch 2021-01-01); those of the Earth are rounded.
+
+
+def velocity(a, e, inclination, node, argument, longitude):
+    """The velocity [km/s] on an orbit about the Sun, ecliptic components; a in au, angles in degrees, the longitude is that in the orbit."""
+    i, node, argument, longitude = np.radians([inclination, node, argument, longitude])
+    along, across = np.sqrt(1.32712440018e11 / (149597870.7 * a * (1 - e**2))) * np.array(
+        [-np.sin(longitude) - e * np.sin(argument), np.cos(longitude) + e * np.cos(argument)]
+    )
+    return np.array([along * np.cos(node) - across * np.cos(i) * np.sin(node), along * np.sin(node) + across * np.cos(i) * np.cos(node), across * np.sin(i)])
+
+
+def described(name, vector):
+    """Print size and direction."""
+    longitude, latitude = np.degrees([np.arctan2(vector[1], vector[0]), np.arcsin(vector[2] / np.linalg.norm(vector))])
+    print(f"{name}: {np.linalg.norm(vector):.2f} km/s along longitude {longitude:.1f}°, latitude {latitude:.1f}°")
+
+
+NODE = 204.0389
+heliocentric = velocity(0.9225072, 0.1915217, 3.336751, NODE, 126.6521, 0) - velocity(1.0, 0.0167, 0, 0, 102.94, NODE)
+described("from the orbits about the Sun", heliocentric)
+before, now = earth.position([-10000.0, -9999.0])
+described("from the hyperbola", (now - before) / 3600)
+assert np.linalg.norm((now - before) / 3600 - heliocentric) < 0.03
 
 # %%
 # Periods and pole are those of Pravec et al. (2014) and Lee et al. (2022). The integration goes from two days before the pericentre to two days after it; the torque falls with the cube of the distance.

@@ -23,3 +23,15 @@ def test_every_link_within_the_site_leads_somewhere(page):
 def test_page_fetches_nothing_from_elsewhere(page):
     text = page.read_text(encoding="utf-8")
     assert re.findall(r'<(?:script|link|img|iframe)[^>]*(?:src|href)="(?:https?:)?//[^"]*"', text) == []
+
+
+def test_a_card_of_the_gallery_says_one_sentence():
+    said = re.findall(r'class="sphx-glr-thumbcontainer" tooltip="([^"]+)"', (SITE / "gallery/index.html").read_text(encoding="utf-8"))
+    assert len(said) > 10
+    assert [text for text in said if re.search(r"[.?!] [A-Z]", text)] == []
+
+
+def test_numbers_and_short_cells_stay_in_one_piece():
+    page = (SITE / "gravity-gradient.html").read_text(encoding="utf-8")
+    assert '<span class="unbroken">1e-4</span>' in page
+    assert re.search(r'<td class="unbroken"><p>[\d.]+e-\d+</p></td>', page)

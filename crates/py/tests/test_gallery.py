@@ -42,6 +42,29 @@ def test_the_table_of_the_readme_is_that_of_the_files(monkeypatch):
     assert f"{report.MARKS[0]}\n\n{written}\n\n{report.MARKS[1]}" in PAGES[0].read_text(encoding="utf-8")
 
 
+def test_the_tables_of_the_page_of_speed_are_those_of_the_files(monkeypatch):
+    monkeypatch.syspath_prepend(REPOSITORY / "benches")
+    import report
+
+    page = (REPOSITORY / "docs/speed.md").read_text(encoding="utf-8")
+    assert report.against_rivals() in page
+    assert report.at_equal_error(report.read("work-precision")) in page
+    assert report.by_task(report.read("bench")) in (REPOSITORY / "benches/README.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("given", "shown"),
+    [("1.0e1", "10"), ("2.8e0", "2.8"), ("-1.5e+04", "-15,000"), ("3.0e-2", "0.030"), ("1.05e-3", "1.05e-3"), ("4e-08", "4e-8"), ("2 of 3", "2 of 3")],
+)
+def test_a_number_has_an_exponent_only_where_it_needs_one(monkeypatch, given, shown):
+    monkeypatch.syspath_prepend(REPOSITORY / "docs/_ext")
+    pytest.importorskip("docutils")
+    pytest.importorskip("sphinx")
+    import measured
+
+    assert measured.plain(given) == shown
+
+
 def test_record_writes_both_files(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(REPOSITORY / "examples")
     import demo

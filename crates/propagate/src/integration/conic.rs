@@ -201,9 +201,9 @@ impl Conic {
     #[inline(always)]
     fn conic<S: InstructionSet>(&self, simd: S, mean: f64, order: usize) -> ConicSeries {
         let e = self.eccentricity;
-        let AtEpoch { x, sine, cosine, radius, sign } = match self.hyperbola {
-            None => AtEpoch::on_ellipse(mean, e),
-            Some(_) => AtEpoch::on_hyperbola(mean, e),
+        let ConicPoint { x, sine, cosine, radius, sign } = match self.hyperbola {
+            None => ConicPoint::on_ellipse(mean, e),
+            Some(_) => ConicPoint::on_hyperbola(mean, e),
         };
         let inverse = 1.0 / radius;
         let (mut rate, mut factor): (Scalars, Scalars) = ([0.0; ROWS], [0.0; ROWS]);
@@ -303,7 +303,7 @@ fn tilted([x, y, ..]: Row, (sine, cosine): (f64, f64)) -> Row {
 }
 
 /// The place on a conic at the start of a step.
-struct AtEpoch {
+struct ConicPoint {
     /// The position along the direction to the pericentre.
     x: f64,
     /// Of the eccentric anomaly; hyperbolic ones on a hyperbola.
@@ -314,7 +314,7 @@ struct AtEpoch {
     sign: f64,
 }
 
-impl AtEpoch {
+impl ConicPoint {
     #[inline(always)]
     fn on_ellipse(mean: f64, e: f64) -> Self {
         let anomaly = if e == 0.0 { mean } else { eccentric_anomaly(mean, e) };

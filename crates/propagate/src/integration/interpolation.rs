@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use andoyer_double::two_sum;
 
-use super::series::{ROWS, Scalars, Series, power, product};
+use super::series::{GRAVITY, ROWS, Scalars, Series, power, product};
 use crate::numerics::scaling::scaled;
 use crate::orbit::table::{NODES, TabulatedOrbit};
 
@@ -124,7 +124,7 @@ impl Table {
         for k in 0..order {
             square[k] = position.iter().map(|p| product(p, p, k)).sum();
             factor[k] = match k {
-                0 if self.power == -2.5 => self.strength / (square[0] * square[0].sqrt().sqrt()),
+                0 if self.power == GRAVITY => self.strength / (square[0] * square[0].sqrt().sqrt()),
                 0 => self.strength * square[0].powf(0.5 * self.power),
                 _ => power(&square, &factor, 0.5 * self.power, k),
             };

@@ -8,6 +8,7 @@
 //! Imports errors, numerics, simd, orbit, torque, input and motion.
 
 mod bound;
+pub(crate) mod columns;
 mod conic;
 pub(crate) mod dense;
 mod disturber;
@@ -15,6 +16,7 @@ mod expansion;
 pub(crate) mod integrated;
 pub(crate) mod integrator;
 mod interpolation;
+mod linear;
 mod series;
 mod torques;
 pub(crate) mod variation;

@@ -11,10 +11,10 @@ use std::sync::atomic::AtomicBool;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::error::Error;
-use crate::input::options::Method;
+use crate::input::options::{Averaging, Method};
 use crate::input::scene::Scene;
 use crate::input::state::State;
-use crate::integration::variation::{ForcedColumn, PartialsRows};
+use crate::integration::columns::{ForcedColumn, PartialsRows};
 use crate::motion::solved::Motion;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
@@ -31,17 +31,14 @@ const STENCIL: [(f64, f64); 4] = [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 
 
 /// Writes the derivatives at times that are valid for the motion, in the axes of its scene.
 pub(super) fn fill(
-    motion: &Motion,
+    (motion, averaging): (&Motion, Averaging),
     columns: &[ForcedColumn],
     times: &[f64],
     outputs: PartialsRows<'_>,
     stop: &AtomicBool,
 ) -> Result<(), Error> {
-    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance())).method(Method::Closed);
-    let scene = match motion.plan.averaging() {
-        Some(averaging) => scene.averaging(averaging),
-        None => scene,
-    };
+    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance()));
+    let scene = scene.method(Method::Closed).averaging(averaging);
     let mut samples = Samples::new(times.len(), stop);
     samples.evaluate(&scene, times)?;
     let origins = samples.attitudes.clone();
@@ -107,7 +104,7 @@ fn step(scene: &Scene, parameter: &ForcedColumn, times: &[f64]) -> f64 {
             let (motion, e) = (orbit.mean_motion(), orbit.eccentricity());
             match element {
                 0 => part(motion) * motion,
-                1 => LARGEST.min(LARGEST * (1.0 - e).abs()),
+                1 => LARGEST * (1.0 - e),
                 2 => STEP / motion,
                 _ => STEP,
             }

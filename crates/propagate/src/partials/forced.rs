@@ -7,7 +7,8 @@ use super::differences;
 use super::displacement::ELEMENTS;
 use super::parameters::Parameter;
 use crate::error::Error;
-use crate::integration::variation::{self, ForcedColumn, PartialsRows};
+use crate::integration::columns::{ForcedColumn, PartialsRows};
+use crate::integration::variation;
 use crate::motion::batch::Batch;
 use crate::motion::solved::Motion;
 
@@ -46,8 +47,10 @@ impl Batch<'_> {
         let ends = [f64::min, f64::max].map(|end| times.iter().copied().fold(motion.scene.state().epoch, end));
         let scene = motion.scene.clone().span(ends[0], ends[1]);
         let own = outputs.each_mut().map(|output| &mut **output);
-        if motion.plan.averaging().is_some() && variation::steps(&scene) > MOST_STEPS {
-            differences::fill(motion, columns, &times, own, self.stop())?;
+        if let Some(averaging) = motion.plan.averaging()
+            && variation::steps(&scene) > MOST_STEPS
+        {
+            differences::fill((motion, averaging), columns, &times, own, self.stop())?;
         } else {
             variation::fill(&scene, columns, &times, own, self.stop())?;
         }

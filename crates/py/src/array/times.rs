@@ -27,7 +27,7 @@ const LONG_PARTIALS: usize = 1 << 18;
 const LONG_DISTURBED: usize = 1 << 14;
 /// Number of members of an ensemble above which solving counts as a long call; it takes 20 ms.
 const LONG_MEMBERS: usize = 1 << 12;
-/// The same number under a gravity gradient, with 0.2 to 0.3 ms for each member.
+/// The same number under a gravity gradient, with 0.1 to 0.3 ms for each member.
 const LONG_DISTURBED_MEMBERS: usize = 32;
 
 /// Times: a scalar or one axis; for an ensemble also one row for each member.
@@ -95,7 +95,7 @@ impl<'py> Times<'py> {
         self.given.clone().map(Bound::unbind)
     }
 
-    /// The same for derivatives. Under a torque they take as long as the way from the epoch, for one time too.
+    /// True if derivatives at these times may be a long call. Under a torque one time suffices: the way to it from the epoch is integrated.
     pub(crate) fn long_partials(&self) -> bool {
         self.disturbed || self.leading.iter().product::<usize>() >= LONG_PARTIALS || self.long()
     }
