@@ -31,6 +31,7 @@ def test_example_is_a_scene_that_is_solved(example):
     assert plan.mode == "short-axis" and plan.error_bound < scene.tolerance
 
 
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 def test_lines_that_the_example_comments_out_are_keys_too(example):
     example.write_text(UNCOMMENTED, encoding="utf-8")
     scene = andoyer.Scene.from_toml(example)

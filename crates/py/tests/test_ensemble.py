@@ -301,6 +301,7 @@ MOON = andoyer.Orbit(5e-3, 0.02, mass_fraction=0.5)
 FAST = ([[1, 1.02, 1.05], [1, 1.01, 1.03], [1, 1.02, 1.04]], LEVEL, [[0.01, 0.02, 1.0], [0.02, 0.0, 1.1], [0.0, 0.03, -0.9]])
 
 
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 @pytest.mark.parametrize("orbits", [SUN, [SUN, None, MOON], (SUN,) * 3, [None] * 3, None])
 def test_members_under_orbits_have_the_bits_of_their_scenes(orbits):
     ensemble, times, span = Ensemble(*FAST, orbits=orbits, span=(0, 1e5)), [0.0, 1e3, 1e5], (0, 1e5)
@@ -314,6 +315,7 @@ def test_members_under_orbits_have_the_bits_of_their_scenes(orbits):
         assert (moved > 1e-4) == (orbit is not None)
 
 
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 def test_orbits_are_part_of_slices_equality_text_and_pickles():
     ensemble = Ensemble(*FAST, orbits=[SUN, None, MOON], span=(0, 1e5))
     assert ensemble.orbits == [SUN, None, MOON] and ensemble.span == (0.0, 1e5)

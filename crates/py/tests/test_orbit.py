@@ -73,6 +73,7 @@ def test_scene_keeps_its_orbit_through_pickle_repr_and_file(scene, tmp_path):
     assert Scene(scene.body, [0, 0, 0, 1], [0, 0, 1]).orbit is None
 
 
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 def test_attitude_is_that_of_an_integration_within_the_bound_of_the_plan(scene):
     motion = scene.solve()
     times = scene.epoch + np.linspace(0, 600, 13)
@@ -87,6 +88,7 @@ def test_attitude_is_that_of_an_integration_within_the_bound_of_the_plan(scene):
     assert np.abs(found.angular_velocity - rates).max() < bound
 
 
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 def test_angular_momentum_is_that_of_the_state_and_varies(scene):
     motion = scene.solve()
     times = scene.epoch + np.linspace(0, 600, 7)
@@ -98,6 +100,7 @@ def test_angular_momentum_is_that_of_the_state_and_varies(scene):
     assert np.ptp(free.angular_momentum(times), axis=0).max() == 0
 
 
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 def test_plan_says_how_the_torque_is_averaged_and_how_large_it_is(scene):
     plan = scene.solve().plan
     assert plan.averaging == "spin" and 1e-7 < plan.torque < 1e-5
@@ -159,6 +162,7 @@ def test_example_scene_precesses_at_the_rate_of_the_averaged_theory():
     assert variables[:, 4] == pytest.approx(np.linalg.norm(momentum, axis=1), rel=1e-15)
 
 
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 def test_andoyer_angles_give_the_attitude_back_under_a_torque(scene):
     from scipy.spatial.transform import Rotation
 

@@ -62,6 +62,7 @@ def test_errors_say_why_there_are_no_derivatives(motion):
         motion.partials(np.nan)
 
 
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 def test_scene_with_an_orbit_has_derivatives_by_variational_equations():
     scene = Scene(Body([1, 1.02, 1.05]), [0, 0, 0, 1], [0.02, 0.01, 1.0], orbit=andoyer.Orbit(1e-3, 0.1))
     motion = scene.solve()

@@ -20,6 +20,8 @@ from andoyer import output, plot  # noqa: E402
 from andoyer.cli import main  # noqa: E402
 from andoyer.output.rows import samples_of  # noqa: E402
 
+pytestmark = pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
+
 Rotation = pytest.importorskip("scipy.spatial.transform").Rotation
 
 BODY = andoyer.Body([1.0, 1.5, 2.0])

@@ -14,6 +14,8 @@ import pytest
 
 import andoyer
 
+pytestmark = pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
+
 
 def test_eight_threads_evaluate_one_motion_to_the_same_bits(motion):
     times = np.linspace(-1e5, 1e5, 20_000)
