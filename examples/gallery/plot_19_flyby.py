@@ -8,6 +8,7 @@ So 300 bodies pass here, which differ in their two phases alone.
 
 import matplotlib.pyplot as plt
 import numpy as np
+from numpy.typing import NDArray
 
 import andoyer
 
@@ -30,16 +31,16 @@ print("distance at −24, −2 and 0 h:", np.linalg.norm(earth.position(hours), 
 # elements are those of JPL's solution 218 (Horizons, epoch 2021-01-01); those of the Earth are rounded.
 
 
-def velocity(a, e, inclination, node, argument, longitude):
+def velocity(a: float, e: float, inclination: float, node: float, argument: float, longitude: float) -> NDArray[np.float64]:
     """The velocity [km/s] on an orbit about the Sun, ecliptic components; a in au, angles in degrees, the longitude is that in the orbit."""
-    i, node, argument, longitude = np.radians([inclination, node, argument, longitude])
+    i, node, argument, longitude = (float(np.radians(angle)) for angle in (inclination, node, argument, longitude))
     along, across = np.sqrt(1.32712440018e11 / (149597870.7 * a * (1 - e**2))) * np.array(
         [-np.sin(longitude) - e * np.sin(argument), np.cos(longitude) + e * np.cos(argument)]
     )
     return np.array([along * np.cos(node) - across * np.cos(i) * np.sin(node), along * np.sin(node) + across * np.cos(i) * np.cos(node), across * np.sin(i)])
 
 
-def described(name, vector):
+def described(name: str, vector: NDArray[np.float64]) -> None:
     """Print size and direction."""
     longitude, latitude = np.degrees([np.arctan2(vector[1], vector[0]), np.arcsin(vector[2] / np.linalg.norm(vector))])
     print(f"{name}: {np.linalg.norm(vector):.2f} km/s along longitude {longitude:.1f}°, latitude {latitude:.1f}°")
