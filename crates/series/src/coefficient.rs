@@ -76,6 +76,12 @@ pub trait Coefficient:
     /// Adds `weight` · `product` to `sum`.
     fn raw_accumulate(sum: &mut Self::Raw, product: &Self::Raw, weight: i64);
 
+    /// Adds `weight` · `first` · `second` to `sum`.
+    #[inline(always)]
+    fn raw_add_product(sum: &mut Self::Raw, first: &Self::Raw, second: &Self::Raw, weight: i64) {
+        Self::raw_accumulate(sum, &Self::raw_product(first, second), weight);
+    }
+
     /// Approximate size in bits, for estimates of cost.
     fn bits(&self) -> u64 {
         64

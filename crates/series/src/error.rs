@@ -128,6 +128,28 @@ crate::error_table! {
             bound: f64 = "The bound: the relative smallest divisor times the largest frequency.",
         } => Theory, facts("resonances", *divisor, *bound);
 
+        /// Newton's iteration finds no periodic motion of a driven Hamiltonian.
+        #[error("no periodic motion continues the equilibrium: {steps} steps end with a step of {miss:?}; the drive is too strong, or in resonance with a mode")]
+        NoPeriodicMotion {
+            miss: f64 = "The size of the last step, in units of the variables.",
+            steps: usize = "The number of steps.",
+        } => Theory, facts("driven", *miss, "convergence");
+
+        /// The motion about a periodic solution has multipliers for which no real periodic frame is built.
+        #[error("the multipliers e^(λT) of the periodic motion, {multipliers:?} as (re, im), {problem}")]
+        MultiplierUnsupported {
+            multipliers: Vec<[f64; 2]> = "The multipliers over the period of the first phase, as real and imaginary parts.",
+            problem: &'static str = "What they are.",
+        } => Theory, facts("driven", format!("{multipliers:?}"), "distinct multipliers on the circle, or positive ones");
+
+        /// The coefficients of a driven Hamiltonian have too many harmonics.
+        #[error("with {harmonics} harmonics of a driven phase the last ones are {rest:?}, above the tolerance {tolerance:?}")]
+        GridTooFine {
+            harmonics: usize = "The most harmonics of a phase.",
+            rest: f64 = "The largest of the last harmonics.",
+            tolerance: f64 = "The tolerance.",
+        } => Theory, facts("driven", *rest, *tolerance);
+
         /// A force in resonance with a mode: its motion grows without bound.
         #[error("the force {term} is in resonance with a mode: its divisor {divisor:?} is below the bound {bound:?}, and no bounded forced motion exists; give its amplitude as a parameter of degree 1 or more to keep the term as a resonance, or lower the bound")]
         ResonantForce {

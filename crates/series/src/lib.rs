@@ -29,6 +29,7 @@ mod monomial;
 mod normal_form;
 mod numeric;
 mod parse;
+pub mod periodic;
 mod polynomial;
 mod product;
 pub mod real_field;

@@ -462,7 +462,7 @@ impl Series {
     }
 }
 
-pub(super) fn check(what: &'static str, values: &[f64], expected: usize) -> Result<(), Error> {
+pub(crate) fn check(what: &'static str, values: &[f64], expected: usize) -> Result<(), Error> {
     if values.len() != expected {
         return Err(Error::CountMismatch { what, found: values.len(), expected });
     }

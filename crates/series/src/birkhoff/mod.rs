@@ -14,14 +14,14 @@
 
 mod actions;
 mod code;
-mod diagonal;
+pub(crate) mod diagonal;
 mod domain;
 mod flow;
 mod fourier;
 mod json;
-mod map;
-mod matrix;
-mod mode;
+pub(crate) mod map;
+pub(crate) mod matrix;
+pub(crate) mod mode;
 mod phase_space;
 mod phases;
 mod quadratic;

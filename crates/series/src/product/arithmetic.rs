@@ -36,7 +36,7 @@ impl<C: Coefficient> Arithmetic for Lifted<'_, C> {
 
     #[inline(always)]
     fn add(sum: &mut C::Raw, first: &C::Raw, second: &C::Raw, weight: i64) {
-        C::raw_accumulate(sum, &C::raw_product(first, second), weight);
+        C::raw_add_product(sum, first, second, weight);
     }
 
     fn zero() -> C {

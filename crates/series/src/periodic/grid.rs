@@ -1,0 +1,222 @@
+//! The times at which periodic functions are held: N even steps of each driven phase, N odd, and the discrete Fourier transform.
+//!
+//! With N odd no harmonic lies at the border: the multiples of a phase are −(N − 1)/2 … (N − 1)/2, and the derivative of a function is exact to its last harmonic.
+//! With several phases the grid is their product. Without a phase it is one time.
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex;
+
+use super::row::Periodic;
+
+/// The times of the driven phases.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    axes: Vec<Axis>,
+}
+
+/// One phase.
+#[derive(Clone, Debug)]
+struct Axis {
+    /// The rate of the phase [rad per unit of time].
+    rate: f64,
+    count: usize,
+    /// cos and sin of 2π i j/N: row i, column j.
+    cosines: Vec<f64>,
+    sines: Vec<f64>,
+}
+
+impl Axis {
+    fn new(rate: f64, half: usize) -> Self {
+        let count = 2 * half + 1;
+        let turns = (0..count * count).map(|at| ((at / count) * (at % count) % count) as f64 / count as f64);
+        let (sines, cosines) = turns.map(|turn| (TAU * turn).sin_cos()).unzip();
+        Self { rate, count, cosines, sines }
+    }
+
+    /// The harmonic at a place of the transform.
+    fn multiple(&self, place: usize) -> i64 {
+        if 2 * place < self.count { place as i64 } else { place as i64 - self.count as i64 }
+    }
+}
+
+impl Grid {
+    /// The grid for harmonics up to `half` of each phase, which have these rates [rad per unit of time].
+    #[must_use]
+    pub fn new(phases: &[(f64, usize)]) -> Self {
+        Self { axes: phases.iter().map(|&(rate, half)| Axis::new(rate, half)).collect() }
+    }
+
+    /// The number of times.
+    #[must_use]
+    pub fn times(&self) -> usize {
+        self.axes.iter().map(|axis| axis.count).product()
+    }
+
+    /// The number of phases.
+    #[must_use]
+    pub fn phases(&self) -> usize {
+        self.axes.len()
+    }
+
+    /// The rates of the phases.
+    #[must_use]
+    pub fn rates(&self) -> Vec<f64> {
+        self.axes.iter().map(|axis| axis.rate).collect()
+    }
+
+    /// The place along each axis of an index.
+    fn places(&self, mut index: usize) -> Vec<usize> {
+        let mut places = vec![0; self.axes.len()];
+        for (place, axis) in places.iter_mut().zip(&self.axes).rev() {
+            *place = index % axis.count;
+            index /= axis.count;
+        }
+        places
+    }
+
+    /// The phases at a time \[rad\].
+    #[must_use]
+    pub fn angles(&self, index: usize) -> Vec<f64> {
+        let angle = |(place, axis): (usize, &Axis)| TAU * place as f64 / axis.count as f64;
+        self.places(index).into_iter().zip(&self.axes).map(angle).collect()
+    }
+
+    /// The multiples of the phases of a harmonic.
+    #[must_use]
+    pub fn multiples(&self, index: usize) -> Vec<i64> {
+        self.places(index).into_iter().zip(&self.axes).map(|(place, axis)| axis.multiple(place)).collect()
+    }
+
+    /// The rate Σ j n of a harmonic.
+    #[must_use]
+    pub fn rate(&self, index: usize) -> f64 {
+        self.multiples(index).iter().zip(&self.axes).map(|(&j, axis)| j as f64 * axis.rate).sum()
+    }
+
+    /// A function from its values at the phases.
+    pub fn sampled(&self, mut value: impl FnMut(&[f64]) -> Complex<f64>) -> Periodic {
+        if self.axes.is_empty() {
+            return Periodic::Constant(value(&[]));
+        }
+        Periodic::of(&(0..self.times()).map(|index| value(&self.angles(index))).collect::<Vec<_>>())
+    }
+
+    /// The harmonics of a function.
+    #[must_use]
+    pub fn harmonics(&self, function: &Periodic) -> Vec<Complex<f64>> {
+        match function {
+            Periodic::Constant(c) => {
+                let mut harmonics = vec![Complex::default(); self.times()];
+                harmonics[0] = *c;
+                harmonics
+            }
+            Periodic::Row(row) => {
+                let mut row = row.to_vec();
+                self.transform(&mut row, -1.0);
+                let scale = 1.0 / self.times() as f64;
+                (0..self.times()).map(|at| Complex::new(row[at], row[self.times() + at]) * scale).collect()
+            }
+        }
+    }
+
+    /// The function with these harmonics.
+    #[must_use]
+    pub fn function(&self, harmonics: &[Complex<f64>]) -> Periodic {
+        if self.axes.is_empty() {
+            return Periodic::Constant(harmonics[0]);
+        }
+        let mut row: Vec<f64> = harmonics.iter().map(|c| c.re).chain(harmonics.iter().map(|c| c.im)).collect();
+        self.transform(&mut row, 1.0);
+        Periodic::Row(row.into())
+    }
+
+    /// Σ_j x_j e^{± 2πi kj/N} along each axis.
+    fn transform(&self, row: &mut [f64], sign: f64) {
+        let times = self.times();
+        let mut stride = times;
+        for axis in &self.axes {
+            let count = axis.count;
+            stride /= count;
+            let mut line = vec![[0.0; 2]; count];
+            let (mut re, mut im) = (vec![0.0; count], vec![0.0; count]);
+            for start in (0..times).filter(|index| index / stride % count == 0) {
+                for (place, value) in line.iter_mut().enumerate() {
+                    *value = [row[start + place * stride], row[times + start + place * stride]];
+                }
+                re.fill(0.0);
+                im.fill(0.0);
+                for (place, &[x, y]) in line.iter().enumerate() {
+                    let (cosines, sines) =
+                        (&axis.cosines[place * count..][..count], &axis.sines[place * count..][..count]);
+                    let (xs, ys) = (sign * x, sign * y);
+                    for j in 0..count {
+                        re[j] += x * cosines[j] - ys * sines[j];
+                        im[j] += y * cosines[j] + xs * sines[j];
+                    }
+                }
+                for place in 0..count {
+                    row[start + place * stride] = re[place];
+                    row[times + start + place * stride] = im[place];
+                }
+            }
+        }
+    }
+
+    /// The function with each harmonic times `factor` of its index.
+    pub fn filtered(
+        &self,
+        function: &Periodic,
+        mut factor: impl FnMut(usize, Complex<f64>) -> Complex<f64>,
+    ) -> Periodic {
+        let harmonics: Vec<_> =
+            self.harmonics(function).into_iter().enumerate().map(|(at, c)| factor(at, c)).collect();
+        self.function(&harmonics)
+    }
+
+    /// The time derivative Σ n ∂/∂M.
+    #[must_use]
+    pub fn derivative(&self, function: &Periodic) -> Periodic {
+        match function {
+            Periodic::Constant(_) => Periodic::real(0.0),
+            Periodic::Row(_) => self.filtered(function, |at, c| c * Complex::new(0.0, self.rate(at))),
+        }
+    }
+
+    /// The weights of the times with which a function has its value at any phases.
+    #[must_use]
+    pub fn weights(&self, phases: &[f64]) -> Vec<f64> {
+        let along = |(axis, phase): (&Axis, &f64)| -> Vec<f64> {
+            let half = (axis.count / 2) as i32;
+            let weight = |place: usize| {
+                let angle = phase - TAU * place as f64 / axis.count as f64;
+                let sum: f64 = (1..=half).map(|j| (f64::from(j) * angle).cos()).sum();
+                (1.0 + 2.0 * sum) / axis.count as f64
+            };
+            (0..axis.count).map(weight).collect()
+        };
+        let mut weights = vec![1.0];
+        for axis in self.axes.iter().zip(phases).map(along) {
+            weights = weights.iter().flat_map(|before| axis.iter().map(move |next| before * next)).collect();
+        }
+        weights
+    }
+
+    /// The largest harmonic among the last quarter of each phase, for every phase.
+    #[must_use]
+    pub fn tails(&self, function: &Periodic) -> Vec<f64> {
+        let mut tails = vec![0.0_f64; self.axes.len()];
+        if matches!(function, Periodic::Constant(_)) {
+            return tails;
+        }
+        for (at, c) in self.harmonics(function).into_iter().enumerate() {
+            let multiples = self.multiples(at);
+            for ((tail, axis), j) in tails.iter_mut().zip(&self.axes).zip(multiples) {
+                if 8 * j.unsigned_abs() > 3 * axis.count as u64 {
+                    *tail = tail.max(c.norm());
+                }
+            }
+        }
+        tails
+    }
+}

@@ -1,0 +1,346 @@
+//! A coefficient that is a periodic function of driven phases: a constant, or its values at the times of a [`Grid`](super::grid::Grid).
+//!
+//! Sums and products act value by value, so polynomials with such coefficients use the products and brackets of every other coefficient. A sum of products of one
+//! bracket is one fused loop without temporary values. Rows of different grids must not be mixed.
+
+use std::ops::{Add, AddAssign, Mul, MulAssign, Neg, SubAssign};
+use std::sync::Arc;
+
+use num_complex::Complex;
+use num_traits::{One, Zero};
+
+use crate::coefficient::Coefficient;
+
+/// A periodic function.
+#[derive(Clone, Debug)]
+pub enum Periodic {
+    /// A constant.
+    Constant(Complex<f64>),
+    /// The real parts at all times of a grid, then the imaginary parts.
+    Row(Arc<[f64]>),
+}
+
+use Periodic::{Constant, Row};
+
+impl Periodic {
+    /// A real constant.
+    #[must_use]
+    pub fn real(value: f64) -> Self {
+        Constant(value.into())
+    }
+
+    /// The function with these values at the times of a grid.
+    #[must_use]
+    pub fn of(values: &[Complex<f64>]) -> Self {
+        Row(values.iter().map(|c| c.re).chain(values.iter().map(|c| c.im)).collect())
+    }
+
+    /// The value at the time number `index` of the grid.
+    #[must_use]
+    pub fn at(&self, index: usize) -> Complex<f64> {
+        match self {
+            Constant(c) => *c,
+            Row(row) => Complex::new(row[index], row[row.len() / 2 + index]),
+        }
+    }
+
+    /// The mean over the phases.
+    #[must_use]
+    pub fn mean(&self) -> Complex<f64> {
+        match self {
+            Constant(c) => *c,
+            Row(row) => {
+                let (re, im) = row.split_at(row.len() / 2);
+                Complex::new(re.iter().sum(), im.iter().sum()) / re.len() as f64
+            }
+        }
+    }
+
+    /// The largest modulus.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        match self {
+            Constant(c) => c.norm(),
+            Row(row) => (0..row.len() / 2).map(|index| self.at(index).norm()).fold(0.0, f64::max),
+        }
+    }
+
+    /// Σ weight · value, real weights of the times.
+    #[must_use]
+    pub fn weighted(&self, weights: &[f64]) -> Complex<f64> {
+        match self {
+            Constant(c) => *c,
+            Row(row) => {
+                let (re, im) = row.split_at(row.len() / 2);
+                let sum = |part: &[f64]| part.iter().zip(weights).map(|(x, weight)| x * weight).sum();
+                Complex::new(sum(re), sum(im))
+            }
+        }
+    }
+
+    /// Σ factor · function.
+    pub(super) fn combined(terms: &[(Complex<f64>, &Self)]) -> Self {
+        let mut sum = RawPeriodic::default();
+        for (factor, function) in terms {
+            let raw = match function {
+                Constant(c) => RawPeriodic::Constant(*c),
+                Row(row) => RawPeriodic::Factor(Arc::clone(row)),
+            };
+            Self::raw_add_product(&mut sum, &raw, &RawPeriodic::Constant(*factor), 1);
+        }
+        Self::lower(sum, &(), &())
+    }
+
+    /// The function without its imaginary part.
+    #[must_use]
+    pub fn real_part(&self) -> Self {
+        match self {
+            Constant(c) => Self::real(c.re),
+            Row(row) => Row(row[..row.len() / 2].iter().copied().chain(vec![0.0; row.len() / 2]).collect()),
+        }
+    }
+
+    /// The bytes that the values take.
+    pub(super) fn memory(&self) -> usize {
+        size_of::<Self>() + if let Row(row) = self { size_of_val(&row[..]) } else { 0 }
+    }
+
+    /// The values of both functions combined.
+    fn joined(&self, other: &Self, one: impl Fn(Complex<f64>, Complex<f64>) -> Complex<f64>) -> Self {
+        match (self, other) {
+            (Constant(a), Constant(b)) => Constant(one(*a, *b)),
+            (Row(row), _) | (_, Row(row)) => {
+                let values: Vec<_> = (0..row.len() / 2).map(|index| one(self.at(index), other.at(index))).collect();
+                Self::of(&values)
+            }
+        }
+    }
+}
+
+impl PartialEq for Periodic {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Constant(a), Constant(b)) => a == b,
+            (Row(row), _) | (_, Row(row)) => (0..row.len() / 2).all(|index| self.at(index) == other.at(index)),
+        }
+    }
+}
+
+impl Zero for Periodic {
+    fn zero() -> Self {
+        Constant(Complex::zero())
+    }
+
+    fn is_zero(&self) -> bool {
+        match self {
+            Constant(c) => c.is_zero(),
+            Row(row) => row.iter().all(|&value| value == 0.0),
+        }
+    }
+}
+
+impl One for Periodic {
+    fn one() -> Self {
+        Constant(Complex::one())
+    }
+}
+
+impl Add for Periodic {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        self.joined(&other, |a, b| a + b)
+    }
+}
+
+impl Mul for Periodic {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        self.joined(&other, |a, b| a * b)
+    }
+}
+
+impl Neg for Periodic {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        match self {
+            Constant(c) => Constant(-c),
+            Row(row) => Row(row.iter().map(|value| -value).collect()),
+        }
+    }
+}
+
+impl AddAssign<&Self> for Periodic {
+    fn add_assign(&mut self, other: &Self) {
+        *self = self.joined(other, |a, b| a + b);
+    }
+}
+
+impl SubAssign<&Self> for Periodic {
+    fn sub_assign(&mut self, other: &Self) {
+        *self = self.joined(other, |a, b| a - b);
+    }
+}
+
+impl MulAssign<&Self> for Periodic {
+    fn mul_assign(&mut self, other: &Self) {
+        *self = self.joined(other, |a, b| a * b);
+    }
+}
+
+/// A factor, which shares its values, or a sum, which owns them.
+#[derive(Clone, Debug)]
+pub enum RawPeriodic {
+    /// A constant.
+    Constant(Complex<f64>),
+    /// The values of a factor.
+    Factor(Arc<[f64]>),
+    /// The values of a sum.
+    Sum(Box<[f64]>),
+}
+
+impl Default for RawPeriodic {
+    fn default() -> Self {
+        RawPeriodic::Constant(Complex::zero())
+    }
+}
+
+impl RawPeriodic {
+    fn row(&self) -> Option<&[f64]> {
+        match self {
+            RawPeriodic::Constant(_) => None,
+            RawPeriodic::Factor(row) => Some(row),
+            RawPeriodic::Sum(row) => Some(row),
+        }
+    }
+
+    fn constant(&self) -> Complex<f64> {
+        if let RawPeriodic::Constant(c) = self { *c } else { Complex::zero() }
+    }
+
+    /// The values of a sum, of which `length` are wanted.
+    fn opened(&mut self, length: usize) -> &mut [f64] {
+        if !matches!(self, RawPeriodic::Sum(_)) {
+            let mut row = vec![0.0; length].into_boxed_slice();
+            let (re, im) = row.split_at_mut(length / 2);
+            re.fill(self.constant().re);
+            im.fill(self.constant().im);
+            if let Some(known) = self.row() {
+                row.copy_from_slice(known);
+            }
+            *self = RawPeriodic::Sum(row);
+        }
+        let RawPeriodic::Sum(row) = self else { return &mut [] };
+        row
+    }
+}
+
+/// sum += weight · first · second, value by value.
+#[inline]
+fn add_product(sum: &mut [f64], first: &[f64], second: &[f64], weight: f64) {
+    let count = sum.len() / 2;
+    let (re, im) = sum.split_at_mut(count);
+    let ((a, b), (c, d)) = (first.split_at(count), second.split_at(count));
+    let (im, a, b, c, d) = (&mut im[..count], &a[..count], &b[..count], &c[..count], &d[..count]);
+    for i in 0..count {
+        re[i] += weight * (a[i] * c[i] - b[i] * d[i]);
+        im[i] += weight * (a[i] * d[i] + b[i] * c[i]);
+    }
+}
+
+/// sum += factor · row.
+fn add_scaled(sum: &mut [f64], row: &[f64], factor: Complex<f64>) {
+    let count = sum.len() / 2;
+    let (re, im) = sum.split_at_mut(count);
+    let (a, b) = row.split_at(count);
+    for i in 0..count {
+        re[i] += factor.re * a[i] - factor.im * b[i];
+        im[i] += factor.re * b[i] + factor.im * a[i];
+    }
+}
+
+impl Coefficient for Periodic {
+    type Raw = RawPeriodic;
+    type Scale = ();
+
+    fn integer(value: i64) -> Self {
+        Self::real(value as f64)
+    }
+
+    /// The inverse value by value; `None` where one is 0.
+    fn invert(&self) -> Option<Self> {
+        match self {
+            Constant(c) => c.invert().map(Constant),
+            Row(row) => {
+                let inverse: Option<Vec<_>> = (0..row.len() / 2).map(|index| self.at(index).invert()).collect();
+                inverse.map(|values| Self::of(&values))
+            }
+        }
+    }
+
+    fn imaginary_unit() -> Option<Self> {
+        Some(Constant(Complex::i()))
+    }
+
+    /// That of the mean.
+    fn literal(&self) -> (bool, String) {
+        self.mean().literal()
+    }
+
+    fn lift(values: &[&Self]) -> (Vec<RawPeriodic>, ()) {
+        let raw = |value: &&Self| match value {
+            Constant(c) => RawPeriodic::Constant(*c),
+            Row(row) => RawPeriodic::Factor(Arc::clone(row)),
+        };
+        (values.iter().map(raw).collect(), ())
+    }
+
+    fn lower(raw: RawPeriodic, (): &(), (): &()) -> Self {
+        match raw {
+            RawPeriodic::Constant(c) => Constant(c),
+            RawPeriodic::Factor(row) => Row(row),
+            RawPeriodic::Sum(row) => Row(row.into()),
+        }
+    }
+
+    fn raw_product(first: &RawPeriodic, second: &RawPeriodic) -> RawPeriodic {
+        let mut product = RawPeriodic::default();
+        Self::raw_add_product(&mut product, first, second, 1);
+        product
+    }
+
+    fn raw_accumulate(sum: &mut RawPeriodic, product: &RawPeriodic, weight: i64) {
+        Self::raw_add_product(sum, product, &RawPeriodic::Constant(Complex::one()), weight);
+    }
+
+    #[inline]
+    fn raw_add_product(sum: &mut RawPeriodic, first: &RawPeriodic, second: &RawPeriodic, weight: i64) {
+        let weight = weight as f64;
+        match (first.row(), second.row()) {
+            (Some(one), Some(two)) => add_product(sum.opened(one.len()), one, two, weight),
+            (Some(row), None) => add_scaled(sum.opened(row.len()), row, second.constant() * weight),
+            (None, Some(row)) => add_scaled(sum.opened(row.len()), row, first.constant() * weight),
+            (None, None) => {
+                let product = first.constant() * second.constant() * weight;
+                match sum {
+                    RawPeriodic::Constant(c) => *c += product,
+                    RawPeriodic::Factor(_) => {}
+                    RawPeriodic::Sum(row) => {
+                        let (re, im) = row.split_at_mut(row.len() / 2);
+                        re.iter_mut().for_each(|value| *value += product.re);
+                        im.iter_mut().for_each(|value| *value += product.im);
+                    }
+                }
+            }
+        }
+    }
+
+    fn is_finite(&self) -> bool {
+        match self {
+            Constant(c) => c.is_finite(),
+            Row(row) => row.iter().all(|value| value.is_finite()),
+        }
+    }
+}
