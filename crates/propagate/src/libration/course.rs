@@ -1,7 +1,8 @@
 //! The motion of one state by a normal form: proper actions and angles, and a Fourier series.
 
+use andoyer_series::Error;
 use andoyer_series::birkhoff::Harmonic;
-use andoyer_series::{BirkhoffMap, Error};
+use andoyer_series::periodic::DrivenForm;
 use num_complex::Complex;
 
 use super::lock::Lock;
@@ -26,24 +27,24 @@ pub(crate) struct FourierMotion {
 }
 
 impl FourierMotion {
-    /// The motion of a state by a normal form about an equilibrium. The direct transformation of its normal coordinates gives the state at the epoch itself.
+    /// The motion of a state by a normal form. The direct transformation of its normal coordinates gives the state at the epoch itself. Harmonics whose amplitudes are all at
+    /// most `least` are left out.
     ///
     /// # Errors
-    /// Those of the map: a state beyond the range of the series can overflow.
-    pub(crate) fn new(map: &BirkhoffMap, lock: &Lock, origin: &[f64; 6]) -> Result<Self, Error> {
-        let state: Vec<f64> = lock.state.iter().zip(origin).map(|(x, origin)| x - origin).collect();
-        let (_, phases) = lock.shape.driven(lock.start);
-        let normal = map.to_normal_at_phases(&state, &phases)?;
-        let seen = map.from_normal_at_phases(&normal, &phases)?;
-        let missed = seen.iter().zip(&state).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-        let actions = map.actions_of(&normal)?;
+    /// Those of the form: a state beyond the range of the series can overflow.
+    pub(crate) fn new(form: &DrivenForm, lock: &Lock, least: f64) -> Result<Self, Error> {
+        let now = form.at(&lock.shape.driven(lock.start));
+        let normal = now.to_normal(&lock.state)?;
+        let seen = now.from_normal(&normal)?;
+        let missed = seen.iter().zip(&lock.state).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        let actions = form.actions_of(&normal);
         let three = |values: &[f64]| [values[0], values[1], values[2]];
         Ok(Self {
-            frequencies: three(&map.frequencies(&actions)?),
-            angles: three(&map.angles(&normal)?),
+            frequencies: three(&form.frequencies(&actions)?),
+            angles: three(&form.angles_of(&normal)),
             start: lock.start,
             rates: [1.0, lock.shape.precession.phase_rate],
-            harmonics: harmonics(map.fourier(&actions)?, lock, origin),
+            harmonics: harmonics(form.fourier(&actions, least)?, lock),
             missed,
         })
     }
@@ -138,20 +139,13 @@ impl FourierMotion {
     }
 }
 
-/// Harmonics with the multiples of M and α, about the frame S instead of the equilibrium.
-fn harmonics(mut harmonics: Vec<Harmonic>, lock: &Lock, origin: &[f64; 6]) -> Vec<Harmonic> {
+/// Harmonics with the multiples of M and α.
+fn harmonics(mut harmonics: Vec<Harmonic>, lock: &Lock) -> Vec<Harmonic> {
     for harmonic in &mut harmonics {
         let (phases, angle) = lock.shape.multiples(&harmonic.multiples[3..]);
         harmonic.multiples.truncate(3);
         harmonic.multiples.extend(phases);
         harmonic.amplitudes.iter_mut().for_each(|amplitude| *amplitude *= Complex::cis(-angle));
-    }
-    if origin.iter().any(|&x| x != 0.0) {
-        let amplitudes = origin.iter().map(|&x| x.into()).collect();
-        match harmonics.iter_mut().find(|harmonic| harmonic.multiples == [0; 5]) {
-            Some(constant) => constant.amplitudes.iter_mut().zip(origin).for_each(|(sum, x)| *sum += x),
-            None => harmonics.push(Harmonic { multiples: vec![0; 5], amplitudes }),
-        }
     }
     harmonics
 }

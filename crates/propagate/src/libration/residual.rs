@@ -2,15 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use andoyer_series::BirkhoffMap;
 use andoyer_series::num_complex::Complex;
+use andoyer_series::periodic::DrivenForm;
 
 use super::course::FourierMotion;
 use super::lock::Lock;
+use super::energy::{Drive, energy};
 use super::shape::LockedShape;
-use crate::orbit::kepler::Place;
-use crate::simd::lanes::Lanes;
-use crate::torque::strength;
 
 /// Orbits over the slowest period in which the series is inserted, and times in each.
 const ORBITS: usize = 16;
@@ -25,33 +23,31 @@ const FAST: f64 = 0.5;
 
 /// The error of the angles by the residual of the equations of motion. In the frame that turns with a mode, the mean over an orbit is divided by the
 /// smallest divisor of the mode, and the rest by that of fast terms; of both the largest of some orbits counts.
-pub(super) fn residual(map: &BirkhoffMap, lock: &Lock, course: &FourierMotion) -> f64 {
+pub(super) fn residual(form: &DrivenForm, lock: &Lock, course: &FourierMotion) -> f64 {
     let slowest = course.frequencies.iter().fold(1.0_f64, |least, rate| least.min(rate.abs()));
-    let [change, back] = map.linear_changes();
-    let (mut slow, mut fast) = ([0.0_f64; 3], [0.0_f64; 3]);
+    let (mut slow, mut fast, mut seen) = ([0.0_f64; 3], [0.0_f64; 3], [[0.0_f64; 3]; 3]);
     for orbit in 0..ORBITS {
         let start = TAU * (orbit as f64 / (slowest * ORBITS as f64)).round();
         let mut means = [Complex::default(); 3];
         for k in 0..TIMES {
             let elapsed = start + TAU * k as f64 / TIMES as f64;
             let left = missing(lock, course, elapsed);
-            let row = |row: usize| back[row].iter().zip(left).map(|(a, b)| a * b).sum::<f64>();
+            let [change, inverse] = form.frame(&lock.shape.driven(course.orbit_phases(elapsed)));
             for (mode, mean) in means.iter_mut().enumerate() {
-                let left = Complex::new(row(2 * mode + 1), row(2 * mode));
+                let left: Complex<f64> = inverse[2 * mode + 1].iter().zip(left).map(|(a, b)| a * b).sum();
                 fast[mode] = fast[mode].max(left.norm());
                 *mean += left * Complex::cis(-course.frequencies[mode] * elapsed) / TIMES as f64;
+                for (angle, seen) in seen.iter_mut().enumerate() {
+                    // An angle is 2 Re(c U).
+                    seen[mode] = seen[mode].max(2.0 * change[2 * angle][2 * mode + 1].norm());
+                }
             }
         }
         slow.iter_mut().zip(means).for_each(|(most, mean)| *most = most.max(mean.norm()));
     }
-    let angle = |angle: usize| {
-        let of = |mode: usize| {
-            let error = slow[mode] / divisor(course, lock.shape.is_tilted(), mode) + fast[mode] / FAST;
-            error * change[angle][2 * mode].hypot(change[angle][2 * mode + 1])
-        };
-        (0..3).map(of).sum::<f64>()
-    };
-    [0, 2, 4].map(angle).iter().sum()
+    let error =
+        |mode: usize| slow[mode] / divisor(course, lock.shape.is_tilted(), mode) + fast[mode] / FAST;
+    seen.iter().map(|angle| (0..3).map(|mode| error(mode) * angle[mode]).sum::<f64>()).sum()
 }
 
 /// The smallest divisor of a mode: its frequency, or its difference from low multiples of the others and from those of a precessing orbit.
@@ -79,45 +75,11 @@ fn missing(lock: &Lock, course: &FourierMotion, elapsed: f64) -> [f64; 6] {
 
 /// The derivatives of H with respect to ψ, p_ψ, θ, p_θ, φ, p_φ.
 fn slopes(shape: &LockedShape, state: &[f64; 6], anomaly: f64, node: f64) -> [f64; 6] {
-    let turned = anomaly - TAU * (anomaly / TAU).round();
-    let place = Place::of(Lanes::splat(pulp::Scalar, turned), shape.eccentricity);
-    let angle = place.angle.values()[0];
-    let e = shape.eccentricity;
-    let inverse = (1.0 + e * angle.cos()) / ((1.0 - e) * (1.0 + e));
-    let across = if shape.is_across() { std::f64::consts::FRAC_PI_2 } else { 0.0 };
-    // Rz(−α) Rx(−δ) Rz(α + v), v = f − r M − ψ₀
-    let seen = node + angle - f64::from(shape.twice) / 2.0 * anomaly - across;
-    let ((sine, cosine), (tilt, level)) = (seen.sin_cos(), shape.precession.obliquity.sin_cos());
-    let (x, y, z) = (cosine, sine * level, -sine * tilt);
-    let (sin_node, cos_node) = node.sin_cos();
-    let direction = [cos_node * x + sin_node * y, cos_node * y - sin_node * x, z];
-    let torque = strength(shape.attraction) * inverse.powi(3);
+    let drive = Drive::at(shape, [anomaly, node]);
     std::array::from_fn(|slot| {
         let mut at = state.map(|x| Complex::new(x, 0.0));
         at[slot].im = STEP;
-        energy(shape, &at, direction, torque, node).im / STEP
+        // Numbers have no error.
+        energy(shape, &at, &drive).map_or(f64::NAN, |energy| energy.im / STEP)
     })
-}
-
-/// H of theory-locked (2) and (5).
-fn energy(shape: &LockedShape, state: &[Complex<f64>; 6], direction: [f64; 3], torque: f64, node: f64) -> Complex<f64> {
-    let &[psi, p_psi, theta, p_theta, phi, p_phi] = state;
-    let p_psi = p_psi + shape.precession.spin;
-    let [(sin_psi, cos_psi), (sin_theta, cos_theta), (sin_phi, cos_phi)] =
-        [psi, theta, phi].map(|angle| (angle.sin(), angle.cos()));
-    let along = (p_psi + p_phi * sin_theta) / cos_theta;
-    let momenta = [p_phi, p_theta * cos_phi + along * sin_phi, along * cos_phi - p_theta * sin_phi];
-    // Rᵀ times the direction.
-    let [x, y, z] = direction;
-    let (first, second) = (cos_psi * x + sin_psi * y, cos_psi * y - sin_psi * x);
-    let third = sin_theta * first + cos_theta * z;
-    let axes =
-        [cos_theta * first - sin_theta * z, cos_phi * second + sin_phi * third, cos_phi * third - sin_phi * second];
-    let mut sum = -p_psi * shape.precession.spin;
-    for ((momentum, axis), moment) in momenta.iter().zip(axes).zip(shape.moments) {
-        sum += momentum * momentum * (0.5 / moment) + axis * axis * (torque * moment);
-    }
-    let across = p_phi * cos_theta + along * sin_theta;
-    let (first, second) = (cos_psi * across - sin_psi * p_theta, sin_psi * across + cos_psi * p_theta);
-    sum - (first * node.sin() + second * node.cos()) * shape.precession.sideways
 }

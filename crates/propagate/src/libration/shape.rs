@@ -60,11 +60,6 @@ impl LockedShape {
         self.precession.obliquity != 0.0 || self.precession.sideways != 0.0
     }
 
-    /// Whether the orbit's phases are commensurate, so that a force on the body has a constant part.
-    pub(crate) fn is_common(&self) -> bool {
-        matches!(self.phases(), Phases::Common { .. })
-    }
-
     fn phases(&self) -> Phases {
         match (self.eccentricity == 0.0, self.is_tilted(), self.precession.argument) {
             (true, false, _) => Phases::None,
@@ -75,28 +70,39 @@ impl LockedShape {
         }
     }
 
-    /// The rates of the phases of a normal form, and their values at a mean anomaly M and an angle α.
-    pub(crate) fn driven(&self, [anomaly, node]: [f64; 2]) -> (Vec<f64>, Vec<f64>) {
-        let rate = self.precession.phase_rate;
+    /// The rates of the phases of a normal form.
+    pub(crate) fn rates(&self) -> Vec<f64> {
         match self.phases() {
-            Phases::None => (vec![], vec![]),
-            Phases::Anomaly => (vec![1.0], vec![anomaly]),
-            Phases::Node => (vec![rate], vec![node]),
-            Phases::Both => (vec![1.0, rate], vec![anomaly, node]),
-            Phases::Common { divided, .. } => (vec![1.0 / divided as f64], vec![anomaly / divided as f64]),
+            Phases::None => vec![],
+            Phases::Anomaly => vec![1.0],
+            Phases::Node => vec![self.precession.phase_rate],
+            Phases::Both => vec![1.0, self.precession.phase_rate],
+            Phases::Common { divided, .. } => vec![1.0 / divided as f64],
         }
     }
 
-    /// e^{i(jM + kα)} in the phases of a normal form: their multiples, and a constant angle.
-    pub(crate) fn wave(&self, j: i64, k: i64) -> (Vec<i64>, f64) {
+    /// The phases of a normal form at a mean anomaly M and an angle α.
+    pub(crate) fn driven(&self, [anomaly, node]: [f64; 2]) -> Vec<f64> {
         match self.phases() {
-            Phases::None => (vec![], 0.0),
-            Phases::Anomaly => (vec![j], 0.0),
-            Phases::Node => (vec![k], 0.0),
-            Phases::Both => (vec![j, k], 0.0),
-            Phases::Common { divided, argument } => {
-                (vec![divided * j + k * divided * i64::from(self.twice) / 2], k as f64 * argument)
+            Phases::None => vec![],
+            Phases::Anomaly => vec![anomaly],
+            Phases::Node => vec![node],
+            Phases::Both => vec![anomaly, node],
+            Phases::Common { divided, .. } => vec![anomaly / divided as f64],
+        }
+    }
+
+    /// M and α at phases of a normal form; 0 for one that has no effect.
+    pub(crate) fn anomaly_and_node(&self, phases: &[f64]) -> [f64; 2] {
+        match (self.phases(), phases) {
+            (Phases::Anomaly, &[anomaly]) => [anomaly, 0.0],
+            (Phases::Node, &[node]) => [0.0, node],
+            (Phases::Both, &[anomaly, node]) => [anomaly, node],
+            (Phases::Common { divided, argument }, &[phase]) => {
+                let anomaly = divided as f64 * phase;
+                [anomaly, f64::from(self.twice) / 2.0 * anomaly + argument]
             }
+            _ => [0.0; 2],
         }
     }
 

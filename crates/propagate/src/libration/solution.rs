@@ -8,11 +8,11 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use andoyer_series::{BirkhoffMap, Error as SeriesError};
+use andoyer_series::Error as SeriesError;
+use andoyer_series::periodic::DrivenForm;
 
 use super::course::FourierMotion;
-use super::form::{Truncated, form};
-use super::hamiltonian::equilibrium;
+use super::form::form;
 use super::lock::Lock;
 use super::residual::residual;
 use crate::error::Error;
@@ -36,15 +36,12 @@ const TIMES: usize = 24;
 const ROUNDING: f64 = 4e-15;
 /// The relative rounding of the frequencies.
 const FREQUENCIES: f64 = 1e-15;
-/// Fractions of the tolerance for dropped terms: of the Hamiltonian and of the Fourier series of each order, and of the Fourier series of the result.
+/// Fractions of the tolerance for dropped terms: of the Fourier series of each order, and of that of the result.
 const DROPPED: [f64; 2] = [1e-3, 0.1];
+/// Harmonics below this fraction of the tolerance are never formed.
+const NEGLIGIBLE: f64 = 1e-7;
 /// No further order is tried after one with so many harmonics: it would take some seconds.
 const MOST_HARMONICS: usize = 2000;
-/// Variables of the first orders are at most 2 to this power.
-const FIRST_SIZE: i32 = -1;
-/// Terms below 2 to this power are always left out.
-const FIRST_LEAST: i32 = -56;
-
 /// The libration of a body locked to an orbit: its proper modes and its terms, in the frame that turns with the resonance.
 #[derive(Clone, Debug)]
 pub struct Libration {
@@ -59,7 +56,7 @@ pub struct Libration {
 
 /// One order: its normal form, its motion, and the distance from that two orders below.
 struct Rung {
-    map: Arc<BirkhoffMap>,
+    form: Arc<DrivenForm>,
     /// Without harmonics that count for nothing.
     course: FourierMotion,
     /// The sum of those, and the number of all.
@@ -87,13 +84,12 @@ pub(crate) fn solved(lock: Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<R
     if let Some(order) = wanted.order.filter(|order| !ORDERS.contains(order)) {
         return Ok(Err(format!("its order is from {} to {}, not {order}", ORDERS.start(), ORDERS.end())));
     }
-    let highest = wanted.order.unwrap_or(HIGHEST[lock.shape.driven([0.0; 2]).0.len()]);
-    let (mut rungs, mut truncated): (Vec<Rung>, _) =
-        (Vec::new(), Truncated { order: 0, size: FIRST_SIZE, least: FIRST_LEAST });
-    let mut best: Option<Libration> = None;
+    let highest = wanted.order.unwrap_or(HIGHEST[lock.shape.rates().len()]);
+    let (mut rungs, mut best): (Vec<Rung>, Option<Libration>) = (Vec::new(), None);
     for order in (highest % 2..=highest).step_by(2) {
-        truncated.order = order;
-        let (map, mut course) = match course_of(&lock, truncated, stop) {
+        let made = form(&lock.shape, order, stop)
+            .and_then(|form| Ok((FourierMotion::new(&form, &lock, NEGLIGIBLE * wanted.tolerance)?, form)));
+        let (mut course, form) = match made {
             Err(SeriesError::Interrupted { .. }) => return Err(Error::Stopped),
             Err(error)
                 if (rungs.len() < 3 || wanted.order.is_some()) && !matches!(error, SeriesError::NotFinite { .. }) =>
@@ -103,24 +99,14 @@ pub(crate) fn solved(lock: Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<R
             Err(_) => break,
             Ok(made) => made,
         };
-        match rungs.len() {
-            // The smallest divisors are near the smallest frequency.
-            0 => {
-                // A libration in longitude is below a quarter turn.
-                if course.angle() > FRAC_PI_2 {
-                    return Ok(Err(limit(&lock, &course, &course)));
-                }
-                let slowest = slowest(&lock, &course, wanted.reach);
-                let least = (DROPPED[0] * wanted.tolerance * slowest).log2().floor();
-                truncated.least = least.max(f64::from(FIRST_LEAST)) as i32;
-            }
-            1 => truncated.size = truncated.size.min(course.amplitude().log2().ceil() as i32 + 1),
-            _ => {}
+        // A libration in longitude is below a quarter turn.
+        if rungs.is_empty() && course.angle() > FRAC_PI_2 {
+            return Ok(Err(limit(&lock, &course, &course)));
         }
         let harmonics = course.harmonics.len();
         let dropped = course.drop_below(DROPPED[0] * wanted.tolerance);
         let distance = rungs.last().map_or(f64::INFINITY, |last| distance(&course, &last.course, wanted.reach));
-        rungs.push(Rung { map, course, dropped, harmonics, order, distance });
+        rungs.push(Rung { form, course, dropped, harmonics, order, distance });
         let many = rungs.last().is_some_and(|last| last.harmonics > MOST_HARMONICS);
         if wanted.order.map_or(rungs.len() < 3, |asked| order < asked) {
             continue;
@@ -141,30 +127,10 @@ pub(crate) fn solved(lock: Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<R
     Ok(best.filter(|best| best.error < PI).ok_or_else(why))
 }
 
-/// The slowest rate with which a term that is left out acts: of a proper mode, or of M and α against each other, where the span does not end before.
-fn slowest(lock: &Lock, course: &FourierMotion, [before, after]: [f64; 2]) -> f64 {
-    let proper = course.frequencies.iter().fold(1.0_f64, |least, rate| least.min(rate.abs()));
-    if !lock.shape.is_tilted() {
-        return proper;
-    }
-    let pericentre = (lock.shape.precession.phase_rate - f64::from(lock.shape.twice) / 2.0).abs();
-    proper.min(pericentre.max(1.0 / before.abs().max(after.abs())))
-}
-
-fn course_of(
-    lock: &Lock,
-    truncated: Truncated,
-    stop: &AtomicBool,
-) -> Result<(Arc<BirkhoffMap>, FourierMotion), SeriesError> {
-    let map = form(&lock.shape, truncated, stop)?;
-    let course = FourierMotion::new(&map, lock, &equilibrium(&lock.shape)?)?;
-    Ok((map, course))
-}
-
 /// The libration by the last order; none without an estimate.
 fn candidate(rungs: &[Rung], lock: &Lock, wanted: &Wanted) -> Option<Libration> {
     let (estimate, last) = (estimate(rungs, wanted.reach)?, rungs.last()?);
-    let residual = residual(&last.map, lock, &last.course);
+    let residual = residual(&last.form, lock, &last.course);
     if residual > LARGEST_RESIDUAL {
         return None;
     }

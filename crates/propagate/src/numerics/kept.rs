@@ -3,7 +3,8 @@
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
-use andoyer_series::{BirkhoffMap, Error};
+use andoyer_series::Error;
+use andoyer_series::periodic::DrivenForm;
 
 /// The largest memory of the normal forms that a process keeps \[bytes\].
 const MOST_MEMORY: usize = 256 << 20;
@@ -16,7 +17,7 @@ static FORMS: LazyLock<KeptForms> = LazyLock::new(KeptForms::default);
 pub(crate) struct KeptForms(Mutex<Forms>);
 
 /// A normal form, once it is made.
-type FormSlot = Arc<Mutex<Option<Arc<BirkhoffMap>>>>;
+type FormSlot = Arc<Mutex<Option<Arc<DrivenForm>>>>;
 
 #[derive(Default)]
 struct Forms {
@@ -39,8 +40,8 @@ impl KeptForms {
     pub(crate) fn of(
         &self,
         key: Vec<u64>,
-        make: impl FnOnce() -> Result<BirkhoffMap, Error>,
-    ) -> Result<Arc<BirkhoffMap>, Error> {
+        make: impl FnOnce() -> Result<DrivenForm, Error>,
+    ) -> Result<Arc<DrivenForm>, Error> {
         self.of_within(MOST_MEMORY, key, make)
     }
 
@@ -48,8 +49,8 @@ impl KeptForms {
         &self,
         most: usize,
         key: Vec<u64>,
-        make: impl FnOnce() -> Result<BirkhoffMap, Error>,
-    ) -> Result<Arc<BirkhoffMap>, Error> {
+        make: impl FnOnce() -> Result<DrivenForm, Error>,
+    ) -> Result<Arc<DrivenForm>, Error> {
         let slot = Arc::clone(self.forms().by_key.entry(key.clone()).or_default());
         // If another thread panicked, the slot is still empty.
         let mut made = slot.lock().unwrap_or_else(PoisonError::into_inner);
@@ -81,11 +82,15 @@ impl KeptForms {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use andoyer_series::{PhaseSpace, normalize};
+    use andoyer_series::Monomial;
+    use andoyer_series::periodic::{DrivenOptions, SampledHamiltonian};
+    use andoyer_series::progress::quiet;
 
-    fn pendulum(order: usize) -> Result<BirkhoffMap, Error> {
-        let space = PhaseSpace::new(&[("q", "p")])?;
-        BirkhoffMap::new(&normalize(&space.parse::<f64>("p^2/2 + q^2/2 - q^4/24")?, order, &space)?, &[])
+    fn pendulum(order: usize) -> Result<DrivenForm, Error> {
+        let term = |q, p, c| Ok((Monomial::new(&[q, p])?, c));
+        let terms = |_: &[f64]| [term(0, 2, 0.5), term(2, 0, 0.5), term(4, 0, -1.0 / 24.0)].into_iter().collect();
+        let options = DrivenOptions { order, tolerance: 1e-12, smallest_divisor: 1e-9 };
+        DrivenForm::new(&SampledHamiltonian::new(1, terms), &[], options, &mut quiet)
     }
 
     #[test]

@@ -183,20 +183,27 @@ impl DrivenForm {
         self.motion.origin.iter().map(|x| x.weighted(&weights).re).collect()
     }
 
+    /// Floquet's frame at phases \[rad\]: P with the rows q₁, p₁, … and the columns u₁, U₁, …, and P⁻¹.
+    #[must_use]
+    pub fn frame(&self, phases: &[f64]) -> [Vec<Vec<Complex<f64>>>; 2] {
+        let weights = self.grid().weights(phases);
+        let row = |row: &Vec<Periodic>| row.iter().map(|c| c.weighted(&weights)).collect();
+        let change: Vec<Vec<Complex<f64>>> = self.motion.change.iter().map(row).collect();
+        let inverse = symplectic_inverse(&change);
+        [change, inverse]
+    }
+
     /// This form at phases: all its functions as numbers.
     #[must_use]
     pub fn at(&self, phases: &[f64]) -> FormAtPhases<'_> {
         let weights = self.grid().weights(phases);
         let number = |c: &Periodic| c.weighted(&weights);
-        let rows = |matrix: &[Vec<Periodic>]| -> Vec<Vec<Complex<f64>>> {
-            matrix.iter().map(|row| row.iter().map(number).collect()).collect()
-        };
-        let change = rows(&self.motion.change);
+        let [change, inverse] = self.frame(phases);
         let list = |image: &Polynomial<Periodic>| image.terms().map(|(monomial, c)| (monomial, number(c))).collect();
         FormAtPhases {
             form: self,
             origin: self.motion.origin.iter().map(|x| number(x).re).collect(),
-            inverse: symplectic_inverse(&change),
+            inverse,
             change,
             images: self.images.iter().map(|(slot, image)| (*slot, list(image))).collect(),
         }

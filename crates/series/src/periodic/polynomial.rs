@@ -58,10 +58,7 @@ impl<F: Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync> DrivenHamilton
                 rows.entry(monomial).or_insert_with(|| vec![Complex::default(); grid.times()])[at] += c;
             }
         }
-        let constant = |row: &[Complex<f64>]| row.iter().all(|c| *c == row[0]);
-        let coefficient =
-            |row: &Vec<Complex<f64>>| if constant(row) { Periodic::Constant(row[0]) } else { Periodic::of(row) };
-        let terms = rows.iter().map(|(&monomial, row)| (monomial, coefficient(row)));
+        let terms = rows.iter().map(|(&monomial, row)| (monomial, Periodic::of(row).simplified()));
         let replacements: Vec<_> = variables.iter().enumerate().collect();
         Polynomial::from_terms(terms).compose(&replacements, Some(&Truncation::total(degree)))
     }

@@ -91,12 +91,30 @@ impl Periodic {
         Self::lower(sum, &(), &())
     }
 
+    /// `function` of the value at each time.
+    #[must_use]
+    pub fn each(&self, function: impl Fn(Complex<f64>) -> Complex<f64>) -> Self {
+        match self {
+            Constant(c) => Constant(function(*c)),
+            Row(row) => Self::of(&(0..row.len() / 2).map(|index| function(self.at(index))).collect::<Vec<_>>()),
+        }
+    }
+
+    /// A constant where all values are equal.
+    #[must_use]
+    pub fn simplified(self) -> Self {
+        match &self {
+            Row(row) if (1..row.len() / 2).all(|index| self.at(index) == self.at(0)) => Constant(self.at(0)),
+            _ => self,
+        }
+    }
+
     /// The function without its imaginary part.
     #[must_use]
     pub fn real_part(&self) -> Self {
         match self {
             Constant(c) => Self::real(c.re),
-            Row(row) => Row(row[..row.len() / 2].iter().copied().chain(vec![0.0; row.len() / 2]).collect()),
+            Row(_) => self.each(|c| c.re.into()),
         }
     }
 
@@ -274,8 +292,8 @@ impl Coefficient for Periodic {
         match self {
             Constant(c) => c.invert().map(Constant),
             Row(row) => {
-                let inverse: Option<Vec<_>> = (0..row.len() / 2).map(|index| self.at(index).invert()).collect();
-                inverse.map(|values| Self::of(&values))
+                let values: Option<Vec<_>> = (0..row.len() / 2).map(|index| self.at(index).invert()).collect();
+                values.map(|values| Self::of(&values))
             }
         }
     }
