@@ -12,25 +12,32 @@ use crate::numerics::kept::KeptForms;
 
 /// Divisors below this, in units of n, end a normal form: the estimate refuses larger ones that are too small.
 const SMALLEST_DIVISOR: f64 = 1e-9;
-/// The last harmonics of the periodic motion and of its frame are at most 2 to this power.
-const TAIL: f64 = -43.0;
+/// The last harmonics of the periodic motion and of its frame are at most this fraction of the tolerance, and not below the second number, which rounding reaches.
+const TAIL: [f64; 2] = [1e-4, 1e-13];
 
-/// The normal form of a shape, kept for the next scene.
+/// The normal form of a shape for a tolerance \[rad\], kept for the next scene.
 ///
 /// # Errors
 /// Those of [`DrivenForm::new`]; [`Error::Interrupted`] when the flag is set.
-pub(super) fn form(shape: &LockedShape, order: usize, stop: &AtomicBool) -> Result<Arc<DrivenForm>, Error> {
+pub(super) fn form(
+    shape: &LockedShape,
+    order: usize,
+    tolerance: f64,
+    stop: &AtomicBool,
+) -> Result<Arc<DrivenForm>, Error> {
+    // A power of two, so that similar tolerances share a form.
+    let tail = (TAIL[0] * tolerance).max(TAIL[1]).log2().floor();
     let [a, b, _] = shape.moments;
     let PlaneMotion { phase_rate, spin, sideways, obliquity, argument } = shape.precession;
     let numbers = [a, b, shape.eccentricity, shape.attraction, phase_rate, spin, sideways, obliquity];
     let mut key: Vec<u64> = numbers.map(f64::to_bits).into();
     // A number that no argument has.
     key.push(argument.unwrap_or(f64::NAN).to_bits());
-    key.extend([i64::from(shape.twice), order as i64].map(i64::cast_unsigned));
+    key.extend([i64::from(shape.twice), order as i64, tail as i64].map(i64::cast_unsigned));
     let mut going = |_: usize, _: usize| match stop.load(Ordering::Relaxed) {
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     };
-    let options = DrivenOptions { order, tolerance: TAIL.exp2(), smallest_divisor: SMALLEST_DIVISOR };
+    let options = DrivenOptions { order, tolerance: tail.exp2(), smallest_divisor: SMALLEST_DIVISOR };
     KeptForms::shared().of(key, || DrivenForm::new(shape, &shape.rates(), options, &mut going))
 }

@@ -11,7 +11,7 @@ use super::energy::{Drive, energy};
 use super::shape::LockedShape;
 
 /// Orbits over the slowest period in which the series is inserted, and times in each.
-const ORBITS: usize = 16;
+const ORBITS: usize = 8;
 const TIMES: usize = 8;
 /// The step of a derivative by an imaginary number, which has no rounding error.
 const STEP: f64 = 1e-100;

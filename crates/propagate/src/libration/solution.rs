@@ -19,7 +19,7 @@ use crate::error::Error;
 use crate::motion::plan::in_words;
 
 /// Orders without a phase of the orbit, with one and with two.
-const HIGHEST: [usize; 3] = [16, 10, 8];
+const HIGHEST: [usize; 3] = [16, 12, 6];
 /// Orders that can be asked for.
 const ORDERS: RangeInclusive<usize> = 2..=16;
 /// An amplitude \[rad\] that is blamed before a divisor.
@@ -87,7 +87,7 @@ pub(crate) fn solved(lock: Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<R
     let highest = wanted.order.unwrap_or(HIGHEST[lock.shape.rates().len()]);
     let (mut rungs, mut best): (Vec<Rung>, Option<Libration>) = (Vec::new(), None);
     for order in (highest % 2..=highest).step_by(2) {
-        let made = form(&lock.shape, order, stop)
+        let made = form(&lock.shape, order, wanted.tolerance, stop)
             .and_then(|form| Ok((FourierMotion::new(&form, &lock, NEGLIGIBLE * wanted.tolerance)?, form)));
         let (mut course, form) = match made {
             Err(SeriesError::Interrupted { .. }) => return Err(Error::Stopped),
@@ -104,7 +104,9 @@ pub(crate) fn solved(lock: Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<R
             return Ok(Err(limit(&lock, &course, &course)));
         }
         let harmonics = course.harmonics.len();
-        let dropped = course.drop_below(DROPPED[0] * wanted.tolerance);
+        // What is dropped counts in the residual over the smallest divisor.
+        let slowest = course.frequencies.iter().fold(1.0_f64, |least, rate| least.min(rate.abs()));
+        let dropped = course.drop_below(DROPPED[0] * wanted.tolerance * slowest);
         let distance = rungs.last().map_or(f64::INFINITY, |last| distance(&course, &last.course, wanted.reach));
         rungs.push(Rung { form, course, dropped, harmonics, order, distance });
         let many = rungs.last().is_some_and(|last| last.harmonics > MOST_HARMONICS);

@@ -16,7 +16,7 @@ use num_traits::Zero;
 
 use super::grid::Grid;
 use super::motion::{DrivenHamiltonian, Exponent, PeriodicMotion};
-use super::row::Periodic;
+use super::row::{Periodic, product};
 use crate::birkhoff::Harmonic;
 use crate::birkhoff::matrix::symplectic_inverse;
 use crate::bracket::Poisson;
@@ -25,9 +25,11 @@ use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
 use crate::triangle::{LieTransform, Progress, Removal, normalize_by};
 
-/// Harmonics to begin with, and the most of one phase.
-const FEWEST: usize = 7;
+/// Harmonics to begin with, and the most of one phase; a grid that is too coarse grows by half.
+const FEWEST: usize = 3;
 const MOST: usize = 255;
+/// Grids without a solution after which there is none.
+const FAILURES: usize = 3;
 /// Harmonics below this part of the largest one of a generator have no divisor that counts.
 const NEGLIGIBLE: f64 = 1e-10;
 /// Divisors that are kept for the user.
@@ -72,7 +74,7 @@ pub struct DrivenForm {
 
 impl DrivenForm {
     /// The normal form about the periodic motion that continues the equilibrium 0 of the Hamiltonian without its drive. `rates` are those of the phases
-    /// [rad per unit of time]. The number of times of a phase is doubled until its last harmonics are below the tolerance.
+    /// [rad per unit of time]. The number of times of a phase grows until its last harmonics are below the tolerance.
     ///
     /// # Errors
     /// - no periodic motion: [`Error::NoPeriodicMotion`]; no frame: [`Error::MultiplierUnsupported`]; a divisor below the smallest: [`Error::SmallDivisor`];
@@ -240,16 +242,23 @@ impl DrivenForm {
                 join([vec![0; modes], grid.multiples(at)].concat(), variable, c);
             }
         }
+        let mut rows: BTreeMap<Vec<i64>, Vec<(usize, Periodic)>> = BTreeMap::new();
         for (slot, image) in &self.images {
             for (k, row) in by_angles(image, actions) {
-                for (variable, changes) in self.motion.change.iter().enumerate() {
-                    let product = row.clone() * changes[*slot].clone();
-                    if 2.0 * product.size() <= least / grid.times() as f64 {
-                        continue;
-                    }
-                    for (at, c) in grid.harmonics(&product).into_iter().enumerate() {
-                        join([k.clone(), grid.multiples(at)].concat(), variable, c * 2.0);
-                    }
+                rows.entry(k).or_default().push((*slot, row));
+            }
+        }
+        for (k, rows) in rows {
+            let column: Vec<Vec<Periodic>> = rows.iter().map(|(_, row)| vec![row.clone()]).collect();
+            let used: Vec<Vec<Periodic>> = (self.motion.change.iter())
+                .map(|row| rows.iter().map(|(slot, _)| row[*slot].clone()).collect())
+                .collect();
+            for (variable, sum) in product(&used, &column).into_iter().enumerate() {
+                if 2.0 * sum[0].size() <= least / grid.times() as f64 {
+                    continue;
+                }
+                for (at, c) in grid.harmonics(&sum[0]).into_iter().enumerate() {
+                    join([k.clone(), grid.multiples(at)].concat(), variable, c * 2.0);
                 }
             }
         }
@@ -374,33 +383,29 @@ impl DrivenForm {
     }
 }
 
-/// The periodic motion on a grid that is fine enough.
+/// The periodic motion on a grid that is fine enough. A grid that is too coarse can have no solution; after two of them there is none.
 fn settled(system: &dyn DrivenHamiltonian, rates: &[f64], tolerance: f64) -> Result<PeriodicMotion, Error> {
     let mut halves = vec![FEWEST; rates.len()];
+    let (mut known, mut failures) = (None, 0);
     loop {
         let phases: Vec<_> = rates.iter().copied().zip(halves.iter().copied()).collect();
-        let motion = PeriodicMotion::new(system, Grid::new(&phases));
-        if rates.is_empty() {
-            return motion;
-        }
-        // A grid that is too coarse can have no solution.
-        let tails = match &motion {
+        let found = PeriodicMotion::new(system, Grid::new(&phases), known.as_ref());
+        let tails = match &found {
             Ok(motion) => motion.tails(),
             Err(_) => vec![f64::INFINITY; rates.len()],
         };
+        failures += usize::from(found.is_err());
         let coarse: Vec<bool> = tails.iter().map(|&tail| tail > tolerance).collect();
-        if !coarse.contains(&true) {
-            return motion;
+        if !coarse.contains(&true) || failures == FAILURES || rates.is_empty() {
+            return found;
         }
         if halves.iter().zip(&coarse).any(|(&half, &coarse)| coarse && 2 * half > MOST) {
-            let worst = tails.iter().copied().fold(0.0, f64::max);
-            return match motion {
-                Ok(_) => Err(Error::GridTooFine { harmonics: MOST, rest: worst, tolerance }),
-                Err(error) => Err(error),
-            };
+            let rest = tails.iter().copied().fold(0.0, f64::max);
+            return found.and(Err(Error::GridTooFine { harmonics: MOST, rest, tolerance }));
         }
+        known = found.ok();
         for (half, _) in halves.iter_mut().zip(coarse).filter(|(_, coarse)| *coarse) {
-            *half = 2 * *half + 1;
+            *half += *half / 2 + 1;
         }
     }
 }

@@ -65,6 +65,33 @@ impl Grid {
         self.axes.iter().map(|axis| axis.rate).collect()
     }
 
+    /// The grid of the first phase alone.
+    pub(super) fn first(&self) -> Self {
+        Self { axes: self.axes[..1.min(self.axes.len())].to_vec() }
+    }
+
+    /// The mean of a function over all phases but the first, on the grid of the first.
+    pub(super) fn mean_over_others(&self, function: &Periodic) -> Periodic {
+        let others = self.times() / self.first().times();
+        match function {
+            Periodic::Constant(_) => function.clone(),
+            Periodic::Row(row) => Periodic::Row(
+                row.chunks(others).map(|values| values.iter().sum::<f64>() / others as f64).collect(),
+            ),
+        }
+    }
+
+    /// A function of the first phase as one of all phases.
+    pub(super) fn extended(&self, function: &Periodic) -> Periodic {
+        let others = self.times() / self.first().times();
+        match function {
+            Periodic::Constant(_) => function.clone(),
+            Periodic::Row(row) => {
+                Periodic::Row(row.iter().flat_map(|&value| std::iter::repeat_n(value, others)).collect())
+            }
+        }
+    }
+
     /// The place along each axis of an index.
     fn places(&self, mut index: usize) -> Vec<usize> {
         let mut places = vec![0; self.axes.len()];
@@ -118,6 +145,11 @@ impl Grid {
                 (0..self.times()).map(|at| Complex::new(row[at], row[self.times() + at]) * scale).collect()
             }
         }
+    }
+
+    /// Whether a harmonic is solved for: its products with others up to it do not fold back to it. The multiples of each phase are at most a third of its times.
+    pub(super) fn is_solved(&self, index: usize) -> bool {
+        self.multiples(index).iter().zip(&self.axes).all(|(j, axis)| 3 * j.unsigned_abs() <= axis.count as u64)
     }
 
     /// The function with these harmonics.
@@ -202,7 +234,7 @@ impl Grid {
         weights
     }
 
-    /// The largest harmonic among the last quarter of each phase, for every phase.
+    /// For every phase the largest harmonic among those above a quarter of its times.
     #[must_use]
     pub fn tails(&self, function: &Periodic) -> Vec<f64> {
         let mut tails = vec![0.0_f64; self.axes.len()];
@@ -212,7 +244,7 @@ impl Grid {
         for (at, c) in self.harmonics(function).into_iter().enumerate() {
             let multiples = self.multiples(at);
             for ((tail, axis), j) in tails.iter_mut().zip(&self.axes).zip(multiples) {
-                if 8 * j.unsigned_abs() > 3 * axis.count as u64 {
+                if 4 * j.unsigned_abs() > axis.count as u64 {
                     *tail = tail.max(c.norm());
                 }
             }

@@ -5,8 +5,8 @@
 //! residual r; one for P solves n∂X − [Λ, X] = R with the part R of P⁻¹(J S P − n∂P) that is not Λ. In the harmonics of w and X both are divisions by i j·n minus
 //! eigenvalues. The method holds for any number of phases; with two or more x̄ and P are quasi-periodic (À. Haro and R. de la Llave, Discrete Contin. Dyn. Syst. B 6 (2006) 1261).
 //!
-//! The start of P: with one phase the monodromy matrix, of which the Cayley transform (Φ − 1)(Φ + 1)⁻¹ is diagonalized as the matrix of a quadratic form; with none or
-//! several, the mean of S. The exponents ω are known up to multiples of n: each mode takes the multiple, and the place, where it has the most in common with a mode of
+//! The start of P: the monodromy matrix of the first phase, of which the Cayley transform (Φ − 1)(Φ + 1)⁻¹ is diagonalized as the matrix of a quadratic form, with the mean of S
+//! over the other phases. The exponents ω are known up to multiples of n: each mode takes the multiple, and the place, where it has the most in common with a mode of
 //! the mean of S, which is that of the Hamiltonian without its drive.
 
 use std::f64::consts::PI;
@@ -17,10 +17,10 @@ use num_traits::Zero;
 
 use super::grid::Grid;
 use super::monodromy::monodromy;
-use super::row::Periodic;
+use super::row::{Periodic, product};
 use crate::birkhoff::PhaseSpace;
 use crate::birkhoff::diagonal::Diagonal;
-use crate::birkhoff::matrix::{Matrix, pairing, product, symplectic_inverse, transposed, turned, turned_rows, unit};
+use crate::birkhoff::matrix::{Matrix, pairing, symplectic_inverse, transposed, turned, turned_rows, unit};
 use crate::birkhoff::mode::Mode;
 use crate::error::Error;
 use crate::monomial::Monomial;
@@ -50,10 +50,12 @@ const REACHED: f64 = 1e-14;
 /// A step that is not smaller than this part of the one before ends the iteration, where both are small.
 const SLOWEST: f64 = 0.5;
 const SMALL: f64 = 1e-9;
+/// A mean below this part of the largest value is rounding.
+const ROUNDING: f64 = 1e-14;
 /// A Newton step beyond this has left the range.
 const FAR: f64 = 1e3;
 /// Most steps towards P, and their largest size.
-const FRAMES: usize = 12;
+const FRAMES: usize = 25;
 const LARGEST: f64 = 0.3;
 
 /// A kind of mode about the periodic motion.
@@ -99,15 +101,19 @@ pub struct PeriodicMotion {
 type Frame = (Matrix<Periodic>, Vec<Exponent>);
 
 impl PeriodicMotion {
-    /// The periodic motion that continues the equilibrium 0, and its frame.
+    /// The periodic motion that continues the equilibrium 0, and its frame; `known` is that on a coarser grid.
     ///
     /// # Errors
     /// - no convergence: [`Error::NoPeriodicMotion`]; multipliers that have no real frame: [`Error::MultiplierUnsupported`]; the errors of a quadratic form.
-    pub fn new(system: &dyn DrivenHamiltonian, grid: Grid) -> Result<Self, Error> {
-        let n = 2 * system.pairs();
-        let mut origin = vec![Periodic::zero(); n];
-        let mut before = f64::INFINITY;
-        let mut kept: Option<Frame> = None;
+    pub fn new(system: &dyn DrivenHamiltonian, grid: Grid, known: Option<&Self>) -> Result<Self, Error> {
+        let mut origin = vec![Periodic::zero(); 2 * system.pairs()];
+        let (mut before, mut kept) = (f64::INFINITY, None);
+        if let Some(known) = known {
+            let onto = |function: &Periodic| grid.sampled(|phases| function.weighted(&known.grid.weights(phases)));
+            origin = known.origin.iter().map(onto).collect();
+            let change = known.change.iter().map(|row| row.iter().map(onto).collect()).collect();
+            kept = Some((change, known.exponents.clone()));
+        }
         for _ in 0..STEPS {
             let (slopes, second) = quadratic(system, &grid, &origin)?;
             let (change, exponents) = frame(&grid, &second, kept.take())?;
@@ -122,7 +128,7 @@ impl PeriodicMotion {
                 .iter()
                 .zip(eigenvalues)
                 .map(|(row, lambda)| {
-                    vec![grid.filtered(&row[0], |at, c| c / (Complex::new(0.0, grid.rate(at)) - lambda))]
+                    vec![solved(&grid, &row[0], lambda, false)]
                 })
                 .collect();
             let step: Vec<Periodic> = product(&change, &step).into_iter().map(|row| row[0].real_part()).collect();
@@ -207,6 +213,7 @@ fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut exponents): 
     let moved = turned_rows(second);
     let mut before = f64::INFINITY;
     for _ in 0..FRAMES {
+        change = product(&change, &correction(&change));
         let mut rates = product(&moved, &change);
         for (row, old) in rates.iter_mut().zip(&change) {
             row.iter_mut().zip(old).for_each(|(entry, old)| *entry -= &grid.derivative(old));
@@ -226,30 +233,62 @@ fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut exponents): 
             .enumerate()
             .map(|(a, row)| {
                 let one = |(b, entry): (usize, &Periodic)| {
-                    grid.filtered(entry, |at, c| {
-                        if a == b && at == 0 {
-                            return Complex::zero();
-                        }
-                        c / (Complex::new(0.0, grid.rate(at)) - (eigenvalues[a] - eigenvalues[b]))
-                    })
+                    solved(grid, entry, eigenvalues[a] - eigenvalues[b], a == b)
                 };
                 row.iter().enumerate().map(one).collect()
             })
             .collect();
+        let step = hamiltonian_part(step);
         let size = step.iter().flatten().map(Periodic::size).fold(0.0, f64::max);
-        if !(size < LARGEST && size < 2.0 * before) {
-            return Err(Error::MultiplierUnsupported {
-                multipliers: multipliers(grid, &exponents),
-                problem: "nearly coincide, and no periodic frame separates them",
-            });
+        // A step that rounding makes is not taken.
+        if size > before * SLOWEST && size < SMALL {
+            return Ok((change, exponents));
         }
+        if !size.is_finite() {
+            break;
+        }
+        let step = if size > LARGEST { scaled(step, LARGEST / size) } else { step };
         change = product(&change, &exponential(&step));
-        if size <= REACHED || (size > before * SLOWEST && size < SMALL) {
+        if size <= REACHED {
             return Ok((change, exponents));
         }
         before = size;
     }
-    Err(Error::NoPeriodicMotion { miss: before, steps: FRAMES })
+    let problem = "nearly coincide, and no periodic frame separates them";
+    Err(Error::MultiplierUnsupported { multipliers: multipliers(grid, &exponents), problem })
+}
+
+/// The solution f of n∂f − λ f = `function`, in the harmonics that the grid solves for, and without the mean if it is `kept`.
+fn solved(grid: &Grid, function: &Periodic, lambda: Complex<f64>, kept: bool) -> Periodic {
+    grid.filtered(function, |at, c| {
+        if (at == 0 && kept) || !grid.is_solved(at) || c.is_zero() {
+            return Complex::zero();
+        }
+        c / (Complex::new(0.0, grid.rate(at)) - lambda)
+    })
+}
+
+fn scaled(mut matrix: Matrix<Periodic>, factor: f64) -> Matrix<Periodic> {
+    matrix.iter_mut().flatten().for_each(|entry| *entry *= &Periodic::real(factor));
+    matrix
+}
+
+/// 1 − E/2 for a P with P⁻¹ P = 1 + E, E from rounding, where P⁻¹ is that of a symplectic matrix.
+fn correction(change: &Matrix<Periodic>) -> Matrix<Periodic> {
+    let mut factor = product(&symplectic_inverse(change), change);
+    for (row, unit) in factor.iter_mut().zip(unit::<Periodic>(change.len())) {
+        for (entry, unit) in row.iter_mut().zip(unit) {
+            *entry = Periodic::combined(&[((-0.5).into(), entry), (1.5.into(), &unit)]);
+        }
+    }
+    factor
+}
+
+/// The part (X + J Xᵀ J)/2 of a matrix whose flow is symplectic. Rounding alone makes the rest, but a small divisor enlarges it.
+fn hamiltonian_part(mut matrix: Matrix<Periodic>) -> Matrix<Periodic> {
+    let inverse = symplectic_inverse(&matrix);
+    matrix.iter_mut().flatten().zip(inverse.iter().flatten()).for_each(|(entry, other)| *entry -= other);
+    scaled(matrix, 0.5)
 }
 
 /// e^X of a small matrix.
@@ -258,9 +297,7 @@ fn exponential(step: &Matrix<Periodic>) -> Matrix<Periodic> {
     let (mut sum, mut power) = (unit::<Periodic>(n), unit::<Periodic>(n));
     for k in 1..=16 {
         power = product(&power, step);
-        for row in &mut power {
-            row.iter_mut().for_each(|entry| *entry = entry.clone() * Periodic::real(1.0 / f64::from(k)));
-        }
+        power = scaled(power, 1.0 / f64::from(k));
         let mut most = 0.0_f64;
         for (sum, power) in sum.iter_mut().flatten().zip(power.iter().flatten()) {
             *sum += power;
@@ -279,12 +316,25 @@ fn multipliers(grid: &Grid, exponents: &[Exponent]) -> Vec<[f64; 2]> {
     exponents.iter().map(|exponent| (exponent.eigenvalues()[1] * period).exp()).map(|c| [c.re, c.im]).collect()
 }
 
-/// A first frame.
+/// A first frame: that of the mean over all phases but the first.
 fn start(grid: &Grid, second: &Matrix<Periodic>) -> Result<Frame, Error> {
+    // Rounding must not couple pairs: a mean that vanishes is exactly 0.
+    let mean = |c: &Periodic| {
+        let mean = grid.mean_over_others(c);
+        if mean.size() > ROUNDING * c.size() { mean } else { Periodic::zero() }
+    };
+    let over = |row: &Vec<Periodic>| row.iter().map(mean).collect();
+    let (change, exponents) = start_of_one(&grid.first(), &second.iter().map(over).collect())?;
+    Ok((change.iter().map(|row| row.iter().map(|c| grid.extended(c)).collect()).collect(), exponents))
+}
+
+/// A first frame with one phase or none.
+fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Frame, Error> {
     let n = second.len();
-    let mean: Vec<Vec<f64>> = second.iter().map(|row| row.iter().map(|c| c.mean().re).collect()).collect();
+    let mean = |c: &Periodic| Some(c.mean().re).filter(|mean| mean.abs() > ROUNDING * c.size()).unwrap_or(0.0);
+    let mean: Vec<Vec<f64>> = second.iter().map(|row| row.iter().map(mean).collect()).collect();
     let undriven = diagonal(&mean);
-    if grid.phases() != 1 {
+    if grid.phases() == 0 {
         let (columns, exponents) = columns(&undriven?, |exponent| Ok(exponent))?;
         let change = (0..n).map(|row| columns.iter().map(|column| Periodic::Constant(column[row])).collect()).collect();
         return Ok((change, exponents));

@@ -82,11 +82,7 @@ impl Periodic {
     pub(super) fn combined(terms: &[(Complex<f64>, &Self)]) -> Self {
         let mut sum = RawPeriodic::default();
         for (factor, function) in terms {
-            let raw = match function {
-                Constant(c) => RawPeriodic::Constant(*c),
-                Row(row) => RawPeriodic::Factor(Arc::clone(row)),
-            };
-            Self::raw_add_product(&mut sum, &raw, &RawPeriodic::Constant(*factor), 1);
+            Self::raw_add_product(&mut sum, &function.raw(), &RawPeriodic::Constant(*factor), 1);
         }
         Self::lower(sum, &(), &())
     }
@@ -123,16 +119,28 @@ impl Periodic {
         size_of::<Self>() + if let Row(row) = self { size_of_val(&row[..]) } else { 0 }
     }
 
-    /// The values of both functions combined.
-    fn joined(&self, other: &Self, one: impl Fn(Complex<f64>, Complex<f64>) -> Complex<f64>) -> Self {
-        match (self, other) {
-            (Constant(a), Constant(b)) => Constant(one(*a, *b)),
-            (Row(row), _) | (_, Row(row)) => {
-                let values: Vec<_> = (0..row.len() / 2).map(|index| one(self.at(index), other.at(index))).collect();
-                Self::of(&values)
-            }
+    fn raw(&self) -> RawPeriodic {
+        match self {
+            Constant(c) => RawPeriodic::Constant(*c),
+            Row(row) => RawPeriodic::Factor(Arc::clone(row)),
         }
     }
+}
+
+/// The product of two matrices; each entry is one fused sum.
+pub(super) fn product(a: &[Vec<Periodic>], b: &[Vec<Periodic>]) -> Vec<Vec<Periodic>> {
+    let raw = |matrix: &[Vec<Periodic>]| -> Vec<Vec<RawPeriodic>> {
+        matrix.iter().map(|row| row.iter().map(Periodic::raw).collect()).collect()
+    };
+    let (a, b) = (raw(a), raw(b));
+    let entry = |row: &Vec<RawPeriodic>, column: usize| {
+        let mut sum = RawPeriodic::default();
+        for (x, y) in row.iter().zip(&b) {
+            Periodic::raw_add_product(&mut sum, x, &y[column], 1);
+        }
+        Periodic::lower(sum, &(), &())
+    };
+    a.iter().map(|row| (0..b.first().map_or(0, Vec::len)).map(|column| entry(row, column)).collect()).collect()
 }
 
 impl PartialEq for Periodic {
@@ -166,16 +174,18 @@ impl One for Periodic {
 impl Add for Periodic {
     type Output = Self;
 
-    fn add(self, other: Self) -> Self {
-        self.joined(&other, |a, b| a + b)
+    fn add(mut self, other: Self) -> Self {
+        self += &other;
+        self
     }
 }
 
 impl Mul for Periodic {
     type Output = Self;
 
-    fn mul(self, other: Self) -> Self {
-        self.joined(&other, |a, b| a * b)
+    fn mul(mut self, other: Self) -> Self {
+        self *= &other;
+        self
     }
 }
 
@@ -192,19 +202,19 @@ impl Neg for Periodic {
 
 impl AddAssign<&Self> for Periodic {
     fn add_assign(&mut self, other: &Self) {
-        *self = self.joined(other, |a, b| a + b);
+        *self = Self::combined(&[(Complex::one(), self), ((1.0).into(), other)]);
     }
 }
 
 impl SubAssign<&Self> for Periodic {
     fn sub_assign(&mut self, other: &Self) {
-        *self = self.joined(other, |a, b| a - b);
+        *self = Self::combined(&[(Complex::one(), self), ((-1.0).into(), other)]);
     }
 }
 
 impl MulAssign<&Self> for Periodic {
     fn mul_assign(&mut self, other: &Self) {
-        *self = self.joined(other, |a, b| a * b);
+        *self = Self::lower(Self::raw_product(&self.raw(), &other.raw()), &(), &());
     }
 }
 
@@ -256,26 +266,51 @@ impl RawPeriodic {
 }
 
 /// sum += weight · first · second, value by value.
-#[inline]
-fn add_product(sum: &mut [f64], first: &[f64], second: &[f64], weight: f64) {
-    let count = sum.len() / 2;
-    let (re, im) = sum.split_at_mut(count);
-    let ((a, b), (c, d)) = (first.split_at(count), second.split_at(count));
-    let (im, a, b, c, d) = (&mut im[..count], &a[..count], &b[..count], &c[..count], &d[..count]);
-    for i in 0..count {
-        re[i] += weight * (a[i] * c[i] - b[i] * d[i]);
-        im[i] += weight * (a[i] * d[i] + b[i] * c[i]);
+struct AddProduct<'a> {
+    sum: &'a mut [f64],
+    first: &'a [f64],
+    second: &'a [f64],
+    weight: f64,
+}
+
+impl pulp::NullaryFnOnce for AddProduct<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { sum, first, second, weight } = self;
+        let count = sum.len() / 2;
+        let (re, im) = sum.split_at_mut(count);
+        let ((a, b), (c, d)) = (first.split_at(count), second.split_at(count));
+        let (im, a, b, c, d) = (&mut im[..count], &a[..count], &b[..count], &c[..count], &d[..count]);
+        for i in 0..count {
+            re[i] = weight.mul_add(a[i].mul_add(c[i], -(b[i] * d[i])), re[i]);
+            im[i] = weight.mul_add(a[i].mul_add(d[i], b[i] * c[i]), im[i]);
+        }
     }
 }
 
 /// sum += factor · row.
-fn add_scaled(sum: &mut [f64], row: &[f64], factor: Complex<f64>) {
-    let count = sum.len() / 2;
-    let (re, im) = sum.split_at_mut(count);
-    let (a, b) = row.split_at(count);
-    for i in 0..count {
-        re[i] += factor.re * a[i] - factor.im * b[i];
-        im[i] += factor.re * b[i] + factor.im * a[i];
+struct AddScaled<'a> {
+    sum: &'a mut [f64],
+    row: &'a [f64],
+    factor: Complex<f64>,
+}
+
+impl pulp::NullaryFnOnce for AddScaled<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { sum, row, factor } = self;
+        let count = sum.len() / 2;
+        let (re, im) = sum.split_at_mut(count);
+        let (a, b) = row.split_at(count);
+        let (im, a, b) = (&mut im[..count], &a[..count], &b[..count]);
+        for i in 0..count {
+            re[i] = factor.re.mul_add(a[i], (-factor.im).mul_add(b[i], re[i]));
+            im[i] = factor.re.mul_add(b[i], factor.im.mul_add(a[i], im[i]));
+        }
     }
 }
 
@@ -308,11 +343,7 @@ impl Coefficient for Periodic {
     }
 
     fn lift(values: &[&Self]) -> (Vec<RawPeriodic>, ()) {
-        let raw = |value: &&Self| match value {
-            Constant(c) => RawPeriodic::Constant(*c),
-            Row(row) => RawPeriodic::Factor(Arc::clone(row)),
-        };
-        (values.iter().map(raw).collect(), ())
+        (values.iter().map(|value| value.raw()).collect(), ())
     }
 
     fn lower(raw: RawPeriodic, (): &(), (): &()) -> Self {
@@ -337,9 +368,18 @@ impl Coefficient for Periodic {
     fn raw_add_product(sum: &mut RawPeriodic, first: &RawPeriodic, second: &RawPeriodic, weight: i64) {
         let weight = weight as f64;
         match (first.row(), second.row()) {
-            (Some(one), Some(two)) => add_product(sum.opened(one.len()), one, two, weight),
-            (Some(row), None) => add_scaled(sum.opened(row.len()), row, second.constant() * weight),
-            (None, Some(row)) => add_scaled(sum.opened(row.len()), row, first.constant() * weight),
+            (Some(first), Some(second)) => {
+                let sum = sum.opened(first.len());
+                pulp::Arch::new().dispatch(AddProduct { sum, first, second, weight });
+            }
+            (Some(row), None) => {
+                let (sum, factor) = (sum.opened(row.len()), second.constant() * weight);
+                pulp::Arch::new().dispatch(AddScaled { sum, row, factor });
+            }
+            (None, Some(row)) => {
+                let (sum, factor) = (sum.opened(row.len()), first.constant() * weight);
+                pulp::Arch::new().dispatch(AddScaled { sum, row, factor });
+            }
             (None, None) => {
                 let product = first.constant() * second.constant() * weight;
                 match sum {

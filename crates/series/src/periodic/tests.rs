@@ -57,7 +57,7 @@ fn timing() -> Result<(), Error> {
         let form = DrivenForm::new(&system, &[1.0], options(order), &mut quiet)?;
         println!("{e} {order} {:?} {:?} {} {:?}", start.elapsed(), form.exponents(), form.grid().times(), form.divisors().first());
         let start = std::time::Instant::now();
-        let motion = PeriodicMotion::new(&system, Grid::new(&[(1.0, 15)]))?;
+        let motion = PeriodicMotion::new(&system, Grid::new(&[(1.0, 15)]), None)?;
         println!("   motion {:?} {:?}", start.elapsed(), motion.tails());
     }
     Ok(())
