@@ -123,7 +123,14 @@ fn three_angles_of_mercury_have_the_errors_of_the_reference() {
 
 #[test]
 fn an_order_out_of_range_is_refused() {
-    let case = Case { resonance: 1.0, eccentricity: 0.0, moments: MOON, degrees: [1.0, 0.0, 0.0], momenta: false, errors: &[] };
+    let case = Case {
+        resonance: 1.0,
+        eccentricity: 0.0,
+        moments: MOON,
+        degrees: [1.0, 0.0, 0.0],
+        momenta: false,
+        errors: &[],
+    };
     for order in [0, 1, 17] {
         let refused = case.scene().method(Method::Libration).order(order).solve();
         let Err(Error::NoLibration { reason }) = refused else { panic!("{refused:?}") };

@@ -1,8 +1,7 @@
 //! The motion of one state by a normal form: proper actions and angles, and a Fourier series.
 
 use andoyer_series::Error;
-use andoyer_series::birkhoff::Harmonic;
-use andoyer_series::periodic::DrivenForm;
+use andoyer_series::periodic::{DrivenForm, Harmonic};
 use num_complex::Complex;
 
 use super::lock::Lock;

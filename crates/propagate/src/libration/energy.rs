@@ -122,10 +122,7 @@ impl Number for Truncated {
         }
         let part = |odd: u32| self.series(|k| if k % 2 == odd { factors[k as usize] } else { 0.0 });
         let (even, odd) = (part(0)?, part(1)?);
-        Ok([
-            sine.times(&even)?.plus(&cosine.times(&odd)?),
-            cosine.times(&even)?.plus(&sine.times(&odd)?.scaled(-1.0)),
-        ])
+        Ok([sine.times(&even)?.plus(&cosine.times(&odd)?), cosine.times(&even)?.plus(&sine.times(&odd)?.scaled(-1.0))])
     }
 }
 
@@ -187,10 +184,8 @@ pub(super) fn energy<N: Number>(shape: &LockedShape, state: &[N; 6], drive: &Dri
         .plus(&gamma.times(&slope.times(&slope)?)?.scaled(0.5));
     let linear = secant.times(&beta.times(p_theta)?.plus(&gamma.times(&slope)?))?;
     let quadratic = secant.times(&secant)?.times(&gamma)?.scaled(0.5);
-    let kinetic = inner
-        .plus(&whole.times(&linear)?)
-        .plus(&whole.times(&whole)?.times(&quadratic)?)
-        .plus(&whole.scaled(-spin));
+    let kinetic =
+        inner.plus(&whole.times(&linear)?).plus(&whole.times(&whole)?.times(&quadratic)?).plus(&whole.scaled(-spin));
     // The direction turned back by ψ, and the inertia tensor turned by θ and φ. Without B times the unit tensor, which adds a function of time alone.
     let [x, y, z] = &drive.direction;
     let turned = [

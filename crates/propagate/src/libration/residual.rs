@@ -6,8 +6,8 @@ use andoyer_series::num_complex::Complex;
 use andoyer_series::periodic::DrivenForm;
 
 use super::course::FourierMotion;
-use super::lock::Lock;
 use super::energy::{Drive, energy};
+use super::lock::Lock;
 use super::shape::LockedShape;
 
 /// Orbits over the slowest period in which the series is inserted, and times in each.
@@ -45,8 +45,7 @@ pub(super) fn residual(form: &DrivenForm, lock: &Lock, course: &FourierMotion) -
         }
         slow.iter_mut().zip(means).for_each(|(most, mean)| *most = most.max(mean.norm()));
     }
-    let error =
-        |mode: usize| slow[mode] / divisor(course, lock.shape.is_tilted(), mode) + fast[mode] / FAST;
+    let error = |mode: usize| slow[mode] / divisor(course, lock.shape.is_tilted(), mode) + fast[mode] / FAST;
     seen.iter().map(|angle| (0..3).map(|mode| error(mode) * angle[mode]).sum::<f64>()).sum()
 }
 

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use andoyer_series::birkhoff::Harmonic;
 use andoyer_series::num_complex::Complex;
+use andoyer_series::periodic::Harmonic;
 
 use super::solution::{Libration, limit};
 

@@ -5,8 +5,8 @@
 
 use std::collections::BTreeMap;
 
-use andoyer_series::birkhoff::Harmonic;
 use andoyer_series::num_complex::Complex;
+use andoyer_series::periodic::Harmonic;
 
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;

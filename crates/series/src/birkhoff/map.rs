@@ -45,10 +45,6 @@ pub struct BirkhoffMap {
     flow: Flow,
 }
 
-/// Most steps of an iteration to normal coordinates, and the smallest factor by which a step that counts comes nearer.
-const STEPS: usize = 80;
-const SLOWEST: f64 = 0.9;
-
 /// A polynomial in the complex variables with numbers for the parameters. Its terms are in canonical order.
 #[derive(Debug, Clone)]
 struct Series {
@@ -75,39 +71,6 @@ impl BirkhoffMap {
         parameters: &[f64],
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
-        Self::made(normal_form, parameters, true, progress)
-    }
-
-    /// The series without those of the inverse transformation, in half the time: normal coordinates are found by iteration on the direct one, to which they
-    /// are then exact. A state beyond the range of the iteration has those of its best step.
-    ///
-    /// ```
-    /// use andoyer_series::progress::quiet;
-    /// use andoyer_series::{BirkhoffMap, PhaseSpace, normalize};
-    /// let space = PhaseSpace::new(&[("q", "p")])?;
-    /// let pendulum = space.parse::<f64>("p^2/2 + q^2/2 - q^4/24")?;
-    /// let map = BirkhoffMap::direct_with_progress(&normalize(&pendulum, 2, &space)?, &[], &mut quiet)?;
-    /// let back = map.from_normal(&map.to_normal(&[0.5, 0.1])?)?;
-    /// assert!((back[0] - 0.5).abs() < 1e-15 && (back[1] - 0.1).abs() < 1e-15);
-    /// # Ok::<(), andoyer_series::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// - The errors of [`with_progress`](Self::with_progress).
-    pub fn direct_with_progress<R: RealField>(
-        normal_form: &BirkhoffNormalForm<R>,
-        parameters: &[f64],
-        progress: &mut Progress<'_>,
-    ) -> Result<Self, Error> {
-        Self::made(normal_form, parameters, false, progress)
-    }
-
-    fn made<R: RealField>(
-        normal_form: &BirkhoffNormalForm<R>,
-        parameters: &[f64],
-        both: bool,
-        progress: &mut Progress<'_>,
-    ) -> Result<Self, Error> {
         let (space, phases) = (normal_form.space(), &normal_form.phases);
         check("parameters", parameters, space.parameters())?;
         let float = |c: &R::Complex| {
@@ -130,9 +93,7 @@ impl BirkhoffMap {
             let mut old = sum(transform.direct_with(&variable, progress)?);
             shift.get(slot).into_iter().for_each(|shift| old += shift);
             direct.push(Series::new(&old, space, parameters)?);
-            if both {
-                inverse.push(Series::new(&sum(transform.inverse_with(&variable, progress)?), space, parameters)?);
-            }
+            inverse.push(Series::new(&sum(transform.inverse_with(&variable, progress)?), space, parameters)?);
         }
         let shift = shift.iter().map(|shift| Series::new(shift, space, parameters)).collect::<Result<_, _>>()?;
         let driven = normal_form.driven().iter().map(|(frequency, phase)| (frequency.to_float(), *phase)).collect();
@@ -156,20 +117,9 @@ impl BirkhoffMap {
     /// # Errors
     /// - the errors of [`to_normal`](Self::to_normal); a time that is a NaN or infinite: [`Error::NotFinite`].
     pub fn to_normal_at(&self, state: &[f64], time: f64) -> Result<Vec<f64>, Error> {
-        self.to_normal_at_phases(state, &self.phases(time)?)
-    }
-
-    /// The normal coordinates of a state at values of the driven phases \[rad\].
-    ///
-    /// # Errors
-    /// - the errors of [`to_normal`](Self::to_normal); another number of phases: [`Error::CountMismatch`]; a NaN among them: [`Error::NotFinite`].
-    pub fn to_normal_at_phases(&self, state: &[f64], phases: &[f64]) -> Result<Vec<f64>, Error> {
         check("state", state, 2 * self.modes.len())?;
-        check("phases", phases, self.driven.len())?;
-        if self.inverse.is_empty() {
-            return self.iterated(state, phases);
-        }
-        self.transformed(&self.inverse, self.powers(&self.unforced(state, phases), phases))
+        let phases = self.phases(time)?;
+        self.transformed(&self.inverse, self.powers(&self.unforced(state, &phases), &phases))
     }
 
     /// The complex variables of a state, measured from the forced motion.
@@ -180,38 +130,6 @@ impl BirkhoffMap {
             *value -= shift.evaluate(&mut powers);
         }
         point
-    }
-
-    /// The normal coordinates whose image is a state: x ← x + L(state) − L(image of x), with the linear part L of the inverse.
-    fn iterated(&self, state: &[f64], phases: &[f64]) -> Result<Vec<f64>, Error> {
-        let linear = |state: &[f64]| flow::real_point(&self.modes, &self.unforced(state, phases));
-        let wanted = linear(state);
-        let (mut normal, mut best, mut least) = (wanted.clone(), wanted.clone(), f64::INFINITY);
-        for _ in 0..STEPS {
-            let image = self.from_normal_at_phases(&normal, phases)?;
-            let miss = image.iter().zip(state).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-            // Rounding ends the iteration, or the range.
-            if miss >= least * SLOWEST {
-                if miss < least {
-                    best.clone_from(&normal);
-                }
-                break;
-            }
-            (least, best) = (miss, normal.clone());
-            normal
-                .iter_mut()
-                .zip(wanted.iter().zip(linear(&image)))
-                .for_each(|(x, (wanted, seen))| *x += wanted - seen);
-        }
-        Ok(best)
-    }
-
-    /// Its memory, in bytes.
-    #[must_use]
-    pub fn memory(&self) -> usize {
-        let series = self.direct.iter().chain(&self.inverse).chain(&self.shift);
-        size_of::<Self>()
-            + series.map(|series| series.terms.capacity() * size_of::<(Monomial, Complex<f64>)>()).sum::<usize>()
     }
 
     /// The state q₁, p₁, q₂, p₂, … at normal coordinates.
@@ -227,16 +145,8 @@ impl BirkhoffMap {
     /// # Errors
     /// - The errors of [`to_normal_at`](Self::to_normal_at).
     pub fn from_normal_at(&self, normal: &[f64], time: f64) -> Result<Vec<f64>, Error> {
-        self.from_normal_at_phases(normal, &self.phases(time)?)
-    }
-
-    /// The state q₁, p₁, q₂, p₂, … at normal coordinates and values of the driven phases \[rad\].
-    ///
-    /// # Errors
-    /// - The errors of [`to_normal_at_phases`](Self::to_normal_at_phases).
-    pub fn from_normal_at_phases(&self, normal: &[f64], phases: &[f64]) -> Result<Vec<f64>, Error> {
         check("state", normal, 2 * self.modes.len())?;
-        check("phases", phases, self.driven.len())?;
+        let phases = &self.phases(time)?;
         let powers = self.powers(&flow::complex_point(&self.modes, normal), phases);
         finite("transformed state", self.linear(0, &self.transformed(&self.direct, powers)?))
     }
@@ -353,32 +263,6 @@ impl BirkhoffMap {
         let at =
             |&time: &f64| self.from_normal_at(&flow::advanced(&self.modes, &normal, &frequencies, time), start + time);
         times.iter().map(at).collect()
-    }
-
-    /// The modes.
-    pub(super) fn modes(&self) -> &[Mode<f64>] {
-        &self.modes
-    }
-
-    /// The symplectic matrix M of the linear change z = M z′ to the modes, and its inverse, as rows.
-    #[must_use]
-    pub fn linear_changes(&self) -> [&[Vec<f64>]; 2] {
-        [&self.linear[0], &self.linear[1]]
-    }
-
-    /// The linear change M.
-    pub(super) fn linear_change(&self) -> &Matrix<f64> {
-        &self.linear[0]
-    }
-
-    /// Number of driven phases.
-    pub(super) fn driven_phases(&self) -> usize {
-        self.driven.len()
-    }
-
-    /// The terms of the image of U of a centre, where all modes are centres, and the first slot that holds harmonics.
-    pub(super) fn direct_terms(&self, mode: usize) -> (&[(Monomial, Complex<f64>)], usize) {
-        self.direct.get(mode).map_or((&[], SLOTS), |series| (&series.terms, series.driven))
     }
 
     /// The driven phases at a time.

@@ -17,7 +17,6 @@ mod code;
 pub(crate) mod diagonal;
 mod domain;
 mod flow;
-mod fourier;
 mod json;
 pub(crate) mod map;
 pub(crate) mod matrix;
@@ -36,7 +35,6 @@ mod williamson;
 
 pub use actions::{AnglePart, AngleTerms};
 pub use domain::Domain;
-pub use fourier::Harmonic;
 pub use map::BirkhoffMap;
 pub use mode::Mode;
 pub use phase_space::PhaseSpace;

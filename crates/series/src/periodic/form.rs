@@ -17,7 +17,6 @@ use num_traits::Zero;
 use super::grid::Grid;
 use super::motion::{DrivenHamiltonian, Exponent, PeriodicMotion};
 use super::row::{Periodic, product};
-use crate::birkhoff::Harmonic;
 use crate::birkhoff::matrix::symplectic_inverse;
 use crate::bracket::Poisson;
 use crate::error::Error;
@@ -56,6 +55,15 @@ pub struct Divisor {
     pub multiples: Vec<i64>,
     /// k·ω + j·n [rad per unit of time].
     pub value: f64,
+}
+
+/// One harmonic of a motion: each variable is the sum of Re(amplitude · e^{i(k·φ + j·M)}).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Harmonic {
+    /// The integers k of the proper angles, then those j of the driven phases. The first that is not 0 is positive.
+    pub multiples: Vec<i64>,
+    /// The amplitudes of q₁, p₁, q₂, p₂, …
+    pub amplitudes: Vec<Complex<f64>>,
 }
 
 /// The normal form of a driven Hamiltonian about its periodic motion.
@@ -306,9 +314,11 @@ impl FormAtPhases<'_> {
                 values[2 * mode] = values[2 * mode + 1].conj() * Complex::new(0.0, 0.5);
             }
         }
-        let state = self.origin.iter().zip(&self.change).map(|(x, row)| {
-            x + row.iter().zip(&values).map(|(a, b)| a * b).sum::<Complex<f64>>().re
-        });
+        let state = self
+            .origin
+            .iter()
+            .zip(&self.change)
+            .map(|(x, row)| x + row.iter().zip(&values).map(|(a, b)| a * b).sum::<Complex<f64>>().re);
         Ok(state.collect())
     }
 
@@ -412,9 +422,7 @@ fn settled(system: &dyn DrivenHamiltonian, rates: &[f64], tolerance: f64) -> Res
 
 /// k = b − a of u^a U^b.
 fn turns(monomial: Monomial, modes: usize) -> Vec<i64> {
-    (0..modes)
-        .map(|mode| i64::from(monomial.exponent(2 * mode + 1)) - i64::from(monomial.exponent(2 * mode)))
-        .collect()
+    (0..modes).map(|mode| i64::from(monomial.exponent(2 * mode + 1)) - i64::from(monomial.exponent(2 * mode))).collect()
 }
 
 /// The solution of the homological equation. For saddles the divisor is complex: k·ω with ω = iλ.

@@ -75,9 +75,9 @@ impl Grid {
         let others = self.times() / self.first().times();
         match function {
             Periodic::Constant(_) => function.clone(),
-            Periodic::Row(row) => Periodic::Row(
-                row.chunks(others).map(|values| values.iter().sum::<f64>() / others as f64).collect(),
-            ),
+            Periodic::Row(row) => {
+                Periodic::Row(row.chunks(others).map(|values| values.iter().sum::<f64>() / others as f64).collect())
+            }
         }
     }
 
@@ -201,8 +201,7 @@ impl Grid {
         function: &Periodic,
         mut factor: impl FnMut(usize, Complex<f64>) -> Complex<f64>,
     ) -> Periodic {
-        let harmonics: Vec<_> =
-            self.harmonics(function).into_iter().enumerate().map(|(at, c)| factor(at, c)).collect();
+        let harmonics: Vec<_> = self.harmonics(function).into_iter().enumerate().map(|(at, c)| factor(at, c)).collect();
         self.function(&harmonics)
     }
 

@@ -11,7 +11,7 @@ mod motion;
 mod polynomial;
 mod row;
 
-pub use form::{Divisor, DrivenForm, DrivenOptions, FormAtPhases};
+pub use form::{Divisor, DrivenForm, DrivenOptions, FormAtPhases, Harmonic};
 pub use grid::Grid;
 pub use motion::{DrivenHamiltonian, Exponent, PeriodicMotion};
 pub use polynomial::{SampledHamiltonian, terms_at};

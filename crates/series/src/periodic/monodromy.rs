@@ -37,7 +37,12 @@ pub(super) fn monodromy(grid: &Grid, second: &Matrix<Periodic>) -> Vec<DMatrix<f
 }
 
 /// The Taylor coefficients of J S about a phase in powers of a step of the phase, times the step of the time. `steps` are those of the phase and of the time.
-fn taylor(harmonics: &[Vec<Complex<f64>>], (n, half): (usize, i64), start: f64, steps: (f64, f64)) -> Vec<DMatrix<f64>> {
+fn taylor(
+    harmonics: &[Vec<Complex<f64>>],
+    (n, half): (usize, i64),
+    start: f64,
+    steps: (f64, f64),
+) -> Vec<DMatrix<f64>> {
     let times = 2 * half as usize + 1;
     let mut matrices = vec![DMatrix::zeros(n, n); ORDER];
     for (entry, all) in harmonics.iter().enumerate() {

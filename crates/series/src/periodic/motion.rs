@@ -127,9 +127,7 @@ impl PeriodicMotion {
             let step: Matrix<Periodic> = inner
                 .iter()
                 .zip(eigenvalues)
-                .map(|(row, lambda)| {
-                    vec![solved(&grid, &row[0], lambda, false)]
-                })
+                .map(|(row, lambda)| vec![solved(&grid, &row[0], lambda, false)])
                 .collect();
             let step: Vec<Periodic> = product(&change, &step).into_iter().map(|row| row[0].real_part()).collect();
             let size = step.iter().map(Periodic::size).fold(0.0, f64::max);
@@ -232,9 +230,7 @@ fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut exponents): 
             .iter()
             .enumerate()
             .map(|(a, row)| {
-                let one = |(b, entry): (usize, &Periodic)| {
-                    solved(grid, entry, eigenvalues[a] - eigenvalues[b], a == b)
-                };
+                let one = |(b, entry): (usize, &Periodic)| solved(grid, entry, eigenvalues[a] - eigenvalues[b], a == b);
                 row.iter().enumerate().map(one).collect()
             })
             .collect();
@@ -348,7 +344,8 @@ fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Frame, Error> 
         let multipliers = eigenvalues.iter().map(|c| [c.re, c.im]).collect();
         Error::MultiplierUnsupported { multipliers, problem }
     };
-    let inverse = (last + &one).try_inverse().ok_or_else(|| unsupported("are −1, and no frame of this period exists"))?;
+    let inverse =
+        (last + &one).try_inverse().ok_or_else(|| unsupported("are −1, and no frame of this period exists"))?;
     let cayley = (last - &one) * inverse;
     // A = −J C, without what rounding leaves of its antisymmetric part.
     let rows: Matrix<f64> = (0..n).map(|i| (0..n).map(|j| cayley[(i, j)]).collect()).collect();
@@ -475,9 +472,7 @@ fn continued(
             }
             Exponent::Centre(omega) => {
                 let j = grid.multiples(at)[0];
-                let turn = |sign: f64| {
-                    grid.sampled(|phases| Complex::cis(sign * j as f64 * phases[0]))
-                };
+                let turn = |sign: f64| grid.sampled(|phases| Complex::cis(sign * j as f64 * phases[0]));
                 let turned = |column: &[Periodic], by: &Periodic| -> Vec<Periodic> {
                     column.iter().map(|entry| entry.clone() * by.clone()).collect()
                 };
@@ -491,8 +486,5 @@ fn continued(
 }
 
 fn same(one: Exponent, two: Exponent) -> bool {
-    matches!(
-        (one, two),
-        (Exponent::Centre(_), Exponent::Centre(_)) | (Exponent::Saddle(_), Exponent::Saddle(_))
-    )
+    matches!((one, two), (Exponent::Centre(_), Exponent::Centre(_)) | (Exponent::Saddle(_), Exponent::Saddle(_)))
 }

@@ -27,7 +27,11 @@ impl<F: Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync> SampledHamilto
 ///
 /// # Errors
 /// - None, if the polynomial belongs to the space.
-pub fn terms_at(hamiltonian: &Polynomial<f64>, space: &PhaseSpace, phases: &[f64]) -> Result<Vec<(Monomial, f64)>, Error> {
+pub fn terms_at(
+    hamiltonian: &Polynomial<f64>,
+    space: &PhaseSpace,
+    phases: &[f64],
+) -> Result<Vec<(Monomial, f64)>, Error> {
     let slots = space.driven_slots();
     let term = |(monomial, c): (Monomial, &f64)| {
         let wave = |(j, phase): (i64, &f64)| {

@@ -55,7 +55,13 @@ fn timing() -> Result<(), Error> {
         let system = SampledHamiltonian::new(1, planar(e, r, s, 12));
         let start = std::time::Instant::now();
         let form = DrivenForm::new(&system, &[1.0], options(order), &mut quiet)?;
-        println!("{e} {order} {:?} {:?} {} {:?}", start.elapsed(), form.exponents(), form.grid().times(), form.divisors().first());
+        println!(
+            "{e} {order} {:?} {:?} {} {:?}",
+            start.elapsed(),
+            form.exponents(),
+            form.grid().times(),
+            form.divisors().first()
+        );
         let start = std::time::Instant::now();
         let motion = PeriodicMotion::new(&system, Grid::new(&[(1.0, 15)]), None)?;
         println!("   motion {:?} {:?}", start.elapsed(), motion.tails());
