@@ -1,4 +1,4 @@
-//! The Hamiltonian of theory-locked (2) and (5), for numbers and for polynomials about a motion.
+//! The Hamiltonian of theory-locked (2), (4) and (5), for numbers and for polynomials about a motion.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -171,7 +171,9 @@ impl DrivenForm {
     }
 
     /// K in the actions: I = (q² + p²)/2 of a centre and q p of a saddle.
-    #[must_use]
+    ///
+    /// # Errors
+    /// - None: K has no exponent beyond those of its terms.
     pub fn in_actions(&self) -> Result<Polynomial<f64>, Error> {
         in_actions(&self.hamiltonian, &self.motion.exponents)
     }
@@ -286,6 +288,9 @@ impl DrivenForm {
     }
 }
 
+/// The terms of a polynomial at one time.
+type Terms = Vec<(Monomial, Complex<f64>)>;
+
 /// The functions of a form at one time.
 #[derive(Clone, Debug)]
 pub struct FormAtPhases<'a> {
@@ -293,7 +298,7 @@ pub struct FormAtPhases<'a> {
     origin: Vec<f64>,
     change: Vec<Vec<Complex<f64>>>,
     inverse: Vec<Vec<Complex<f64>>>,
-    images: Vec<(usize, Vec<(Monomial, Complex<f64>)>)>,
+    images: Vec<(usize, Terms)>,
 }
 
 impl FormAtPhases<'_> {
@@ -340,7 +345,7 @@ impl FormAtPhases<'_> {
             let image = self.from_normal(&normal)?;
             let miss = image.iter().zip(state).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
             // Rounding ends the iteration, or the range.
-            if !(miss < least * SLOWEST) {
+            if miss.is_nan() || miss >= least * SLOWEST {
                 if miss < least {
                     best.clone_from(&normal);
                 }
@@ -401,7 +406,7 @@ fn settled(system: &dyn DrivenHamiltonian, rates: &[f64], tolerance: f64) -> Res
         let phases: Vec<_> = rates.iter().copied().zip(halves.iter().copied()).collect();
         let found = PeriodicMotion::new(system, Grid::new(&phases), known.as_ref());
         let tails = match &found {
-            Ok(motion) => motion.tails(),
+            Ok(motion) => motion.tails.clone(),
             Err(_) => vec![f64::INFINITY; rates.len()],
         };
         failures += usize::from(found.is_err());

@@ -172,7 +172,7 @@ impl Grid {
             stride /= count;
             let mut line = vec![[0.0; 2]; count];
             let (mut re, mut im) = (vec![0.0; count], vec![0.0; count]);
-            for start in (0..times).filter(|index| index / stride % count == 0) {
+            for start in (0..times).filter(|index| (index / stride).is_multiple_of(count)) {
                 for (place, value) in line.iter_mut().enumerate() {
                     *value = [row[start + place * stride], row[times + start + place * stride]];
                 }

@@ -52,6 +52,9 @@ const SLOWEST: f64 = 0.5;
 const SMALL: f64 = 1e-9;
 /// A mean below this part of the largest value is rounding.
 const ROUNDING: f64 = 1e-14;
+/// A divisor below this part of the eigenvalue is a resonance, unless the harmonic is rounding.
+const RESONANT: f64 = 1e-10;
+const NOISE: f64 = 1e-12;
 /// A Newton step beyond this has left the range.
 const FAR: f64 = 1e3;
 /// Most steps towards P, and their largest size.
@@ -95,6 +98,8 @@ pub struct PeriodicMotion {
     /// P: rows q₁, p₁, …, columns u₁, U₁, …; for a centre u = (q + ip)/2 and U = 2iū of the real normal variables.
     pub(super) change: Matrix<Periodic>,
     pub(super) exponents: Vec<Exponent>,
+    /// For each phase the largest of the last harmonics of x̄, P and the derivatives of H.
+    pub(super) tails: Vec<f64>,
 }
 
 /// A frame: P and the exponents.
@@ -138,9 +143,11 @@ impl PeriodicMotion {
             let scale = origin.iter().map(Periodic::size).fold(1.0, f64::max);
             let slow = size > before * SLOWEST && size < SMALL * scale;
             if size <= REACHED * scale || slow {
-                let (_, second) = quadratic(system, &grid, &origin)?;
+                let (slopes, second) = quadratic(system, &grid, &origin)?;
                 let (change, exponents) = frame(&grid, &second, Some((change, exponents)))?;
-                return Ok(Self { grid, origin, change, exponents });
+                let functions = origin.iter().chain(&slopes).chain(change.iter().flatten());
+                let tails = tails(&grid, functions.chain(second.iter().flatten()));
+                return Ok(Self { grid, origin, change, exponents, tails });
             }
             before = size;
             kept = Some((change, exponents));
@@ -152,15 +159,15 @@ impl PeriodicMotion {
     pub(super) fn variables(&self) -> Result<Vec<Polynomial<Periodic>>, Error> {
         self.origin.iter().zip(&self.change).map(|(origin, row)| form(origin, row)).collect()
     }
+}
 
-    /// The largest harmonics at the border of the grid, for each phase.
-    pub(super) fn tails(&self) -> Vec<f64> {
-        let mut most = vec![0.0_f64; self.grid.phases()];
-        for function in self.origin.iter().chain(self.change.iter().flatten()) {
-            most.iter_mut().zip(self.grid.tails(function)).for_each(|(most, tail)| *most = most.max(tail));
-        }
-        most
+/// For each phase the largest of the last harmonics of functions.
+fn tails<'a>(grid: &Grid, functions: impl Iterator<Item = &'a Periodic>) -> Vec<f64> {
+    let mut most = vec![0.0_f64; grid.phases()];
+    for function in functions {
+        most.iter_mut().zip(grid.tails(function)).for_each(|(most, tail)| *most = most.max(tail));
     }
+    most
 }
 
 /// A constant plus a linear form.
@@ -203,7 +210,9 @@ fn frame(grid: &Grid, second: &Matrix<Periodic>, known: Option<Frame>) -> Result
     if let Some(Ok(frame)) = known.map(|known| refined(grid, second, known)) {
         return Ok(frame);
     }
-    refined(grid, second, start(grid, second)?)
+    // Multipliers that coincide without a drive that couples them have the frame of the mean.
+    let found = start(grid, second, start_of_one).and_then(|frame| refined(grid, second, frame));
+    found.or_else(|error| refined(grid, second, start(grid, second, |_, mean| still(mean)).or(Err(error))?))
 }
 
 /// Newton steps to a frame.
@@ -260,7 +269,9 @@ fn solved(grid: &Grid, function: &Periodic, lambda: Complex<f64>, kept: bool) ->
         if (at == 0 && kept) || !grid.is_solved(at) || c.is_zero() {
             return Complex::zero();
         }
-        c / (Complex::new(0.0, grid.rate(at)) - lambda)
+        let divisor = Complex::new(0.0, grid.rate(at)) - lambda;
+        // Rounding is no resonance.
+        if divisor.norm() <= RESONANT * lambda.norm() && c.norm() <= NOISE { Complex::zero() } else { c / divisor }
     })
 }
 
@@ -313,27 +324,39 @@ fn multipliers(grid: &Grid, exponents: &[Exponent]) -> Vec<[f64; 2]> {
 }
 
 /// A first frame: that of the mean over all phases but the first.
-fn start(grid: &Grid, second: &Matrix<Periodic>) -> Result<Frame, Error> {
+fn start(
+    grid: &Grid,
+    second: &Matrix<Periodic>,
+    of_one: impl Fn(&Grid, &Matrix<Periodic>) -> Result<Frame, Error>,
+) -> Result<Frame, Error> {
     // Rounding must not couple pairs: a mean that vanishes is exactly 0.
     let mean = |c: &Periodic| {
         let mean = grid.mean_over_others(c);
         if mean.size() > ROUNDING * c.size() { mean } else { Periodic::zero() }
     };
     let over = |row: &Vec<Periodic>| row.iter().map(mean).collect();
-    let (change, exponents) = start_of_one(&grid.first(), &second.iter().map(over).collect())?;
+    let (change, exponents) = of_one(&grid.first(), &second.iter().map(over).collect())?;
     Ok((change.iter().map(|row| row.iter().map(|c| grid.extended(c)).collect()).collect(), exponents))
+}
+
+/// The modes of the mean.
+fn undriven(second: &Matrix<Periodic>) -> Result<Diagonal<f64>, Error> {
+    let mean = |c: &Periodic| Some(c.mean().re).filter(|mean| mean.abs() > ROUNDING * c.size()).unwrap_or(0.0);
+    diagonal(&second.iter().map(|row| row.iter().map(mean).collect()).collect::<Vec<_>>())
+}
+
+/// The frame of the mean.
+fn still(second: &Matrix<Periodic>) -> Result<Frame, Error> {
+    let (columns, exponents) = columns(&undriven(second)?, Ok)?;
+    let row = |row: usize| columns.iter().map(|column| Periodic::Constant(column[row])).collect();
+    Ok(((0..second.len()).map(row).collect(), exponents))
 }
 
 /// A first frame with one phase or none.
 fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Frame, Error> {
     let n = second.len();
-    let mean = |c: &Periodic| Some(c.mean().re).filter(|mean| mean.abs() > ROUNDING * c.size()).unwrap_or(0.0);
-    let mean: Vec<Vec<f64>> = second.iter().map(|row| row.iter().map(mean).collect()).collect();
-    let undriven = diagonal(&mean);
     if grid.phases() == 0 {
-        let (columns, exponents) = columns(&undriven?, |exponent| Ok(exponent))?;
-        let change = (0..n).map(|row| columns.iter().map(|column| Periodic::Constant(column[row])).collect()).collect();
-        return Ok((change, exponents));
+        return still(second);
     }
     let (rate, course) = (grid.rates()[0], monodromy(grid, second));
     let period = 2.0 * PI / rate;
@@ -372,7 +395,7 @@ fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Frame, Error> 
         (0..n).map(|row| Periodic::of(&values(row))).collect()
     };
     let modes = columns.iter().zip(&eigenvalues).map(|(column, &lambda)| carried(column, lambda)).collect();
-    let (modes, exponents) = continued(grid, modes, exponents, undriven.ok().as_ref())?;
+    let (modes, exponents) = continued(grid, modes, exponents, undriven(second).ok().as_ref())?;
     Ok((transposed(&modes), exponents))
 }
 
@@ -390,11 +413,14 @@ fn diagonal(matrix: &[Vec<f64>]) -> Result<Diagonal<f64>, Error> {
     Diagonal::of(&form, &space)
 }
 
+/// Columns of P at one time.
+type Columns = Vec<Vec<Complex<f64>>>;
+
 /// The columns of u₁, U₁, … of modes, and their exponents.
 fn columns(
     diagonal: &Diagonal<f64>,
     mut exponent: impl FnMut(Exponent) -> Result<Exponent, Error>,
-) -> Result<(Vec<Vec<Complex<f64>>>, Vec<Exponent>), Error> {
+) -> Result<(Columns, Vec<Exponent>), Error> {
     let column = |slot: usize| diagonal.matrix.iter().map(|row| row[slot]).collect::<Vec<_>>();
     let (mut all, mut exponents) = (Vec::new(), Vec::new());
     for (mode, kind) in diagonal.modes.iter().enumerate() {
@@ -448,23 +474,8 @@ fn continued(
             }
         }
     }
-    overlaps.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut taken: Vec<Option<(usize, usize)>> = vec![None; count];
-    for (_, mode, place, at) in overlaps {
-        if taken[place].is_none() && taken.iter().flatten().all(|&(other, _)| other != mode) {
-            taken[place] = Some((mode, at));
-        }
-    }
-    // Modes of another kind than any without drive take the places that are left.
-    for mode in 0..count {
-        if taken.iter().flatten().all(|&(other, _)| other != mode)
-            && let Some(free) = taken.iter_mut().find(|place| place.is_none())
-        {
-            *free = Some((mode, 0));
-        }
-    }
     let (mut ordered, mut kinds) = (Vec::new(), Vec::new());
-    for (mode, at) in taken.into_iter().flatten() {
+    for (mode, at) in assigned(overlaps, count) {
         match exponents[mode] {
             Exponent::Saddle(_) => {
                 ordered.extend([columns[2 * mode].clone(), columns[2 * mode + 1].clone()]);
@@ -483,6 +494,25 @@ fn continued(
         }
     }
     Ok((ordered, kinds))
+}
+
+/// The mode and the harmonic of each place, from overlaps with mode, place and harmonic. Modes of another kind than any without drive take the places that are left.
+fn assigned(mut overlaps: Vec<(f64, usize, usize, usize)>, count: usize) -> Vec<(usize, usize)> {
+    overlaps.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut taken: Vec<Option<(usize, usize)>> = vec![None; count];
+    for (_, mode, place, at) in overlaps {
+        if taken[place].is_none() && taken.iter().flatten().all(|&(other, _)| other != mode) {
+            taken[place] = Some((mode, at));
+        }
+    }
+    for mode in 0..count {
+        if taken.iter().flatten().all(|&(other, _)| other != mode)
+            && let Some(free) = taken.iter_mut().find(|place| place.is_none())
+        {
+            *free = Some((mode, 0));
+        }
+    }
+    taken.into_iter().flatten().collect()
 }
 
 fn same(one: Exponent, two: Exponent) -> bool {

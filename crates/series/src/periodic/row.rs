@@ -56,13 +56,18 @@ impl Periodic {
         }
     }
 
-    /// The largest modulus.
+    /// The largest modulus; infinite if a value is not finite.
     #[must_use]
     pub fn size(&self) -> f64 {
-        match self {
-            Constant(c) => c.norm(),
-            Row(row) => (0..row.len() / 2).map(|index| self.at(index).norm()).fold(0.0, f64::max),
-        }
+        let square = match self {
+            Constant(c) => c.norm_sqr(),
+            Row(row) => {
+                let (re, im) = row.split_at(row.len() / 2);
+                let squares = re.iter().zip(im).map(|(x, y)| x * x + y * y);
+                squares.fold(0.0, |most, next| if next <= most { most } else { next })
+            }
+        };
+        if square.is_finite() { square.sqrt() } else { f64::INFINITY }
     }
 
     /// Σ weight · value, real weights of the times.

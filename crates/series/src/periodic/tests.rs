@@ -1,70 +1,162 @@
 use super::*;
-use crate::birkhoff::PhaseSpace;
+use crate::birkhoff::{PhaseSpace, normalize};
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
 use crate::triangle::quiet;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 fn options(order: usize) -> DrivenOptions {
     DrivenOptions { order, tolerance: 1e-12, smallest_divisor: 1e-9 }
 }
 
-/// A form from text.
-fn form(text: &str, pairs: &[(&str, &str)], rate: f64, order: usize) -> Result<DrivenForm, Error> {
-    let space = PhaseSpace::new(pairs)?.with_driven(&["M"])?;
+/// A form from text with the phases M, N, as many as there are rates.
+fn form(text: &str, pairs: &[(&str, &str)], rates: &[f64], order: usize) -> Result<DrivenForm, Error> {
+    let space = PhaseSpace::new(pairs)?.with_driven(&["M", "N"][..rates.len()])?;
     let hamiltonian: Polynomial<f64> = space.parse(text)?;
     let sampled = SampledHamiltonian::new(pairs.len(), |phases: &[f64]| terms_at(&hamiltonian, &space, phases));
-    DrivenForm::new(&sampled, &[rate], options(order), &mut quiet)
+    DrivenForm::new(&sampled, rates, options(order), &mut quiet)
+}
+
+fn omega(form: &DrivenForm) -> f64 {
+    form.exponents()[0].frequency().re
+}
+
+/// The largest distance of the motion by a form from an integration, over some periods of the phase, which starts at 0.
+fn miss(
+    form: &DrivenForm,
+    rate: f64,
+    start: [f64; 2],
+    periods: usize,
+    rates: impl Fn(f64, [f64; 2]) -> [f64; 2],
+) -> Result<f64, Error> {
+    let normal = form.at(&[0.0]).to_normal(&start)?;
+    let proper = form.frequencies(&form.actions_of(&normal))?;
+    let (steps, mut state, mut most) = (4000, start, 0.0_f64);
+    let h = TAU / rate / f64::from(steps);
+    for step in 0..steps * periods as i32 {
+        let t = f64::from(step) * h;
+        let moved = |k: [f64; 2], by: f64| [state[0] + by * k[0], state[1] + by * k[1]];
+        let one = rates(t, state);
+        let two = rates(t + h / 2.0, moved(one, h / 2.0));
+        let three = rates(t + h / 2.0, moved(two, h / 2.0));
+        let four = rates(t + h, moved(three, h));
+        state = std::array::from_fn(|i| state[i] + h / 6.0 * (one[i] + 2.0 * two[i] + 2.0 * three[i] + four[i]));
+        if step % 971 == 970 {
+            let seen = form.at(&[rate * (t + h)]).from_normal(&form.advanced(&normal, &proper, t + h))?;
+            most = most.max((seen[0] - state[0]).abs().max((seen[1] - state[1]).abs()));
+        }
+    }
+    Ok(most)
 }
 
 #[test]
 fn the_exponent_of_mathieu_is_the_root_of_hills_determinant() -> Result<(), Error> {
     // The root for a = 0.09, q = 0.1 of Hill's determinant with 29 rows, by mpmath with 20 digits.
-    let form = form("(p^2 + 0.09*x^2)/2 - 0.1*x^2*cos(2*M)", &[("x", "p")], 1.0, 0)?;
-    let Exponent::Centre(omega) = form.exponents()[0] else { panic!("{:?}", form.exponents()) };
-    assert!((omega - 0.309_063_060_648_002_24).abs() < 2e-15, "{omega}");
+    for rate in [1.0, -1.0] {
+        let form = form("(p^2 + 0.09*x^2)/2 - 0.1*x^2*cos(2*M)", &[("x", "p")], &[rate], 0)?;
+        assert!((omega(&form) - 0.309_063_060_648_002_24).abs() < 2e-15, "{}", omega(&form));
+    }
     Ok(())
 }
 
-/// The planar Hamiltonian of a locked body, p²/2 − r p − (3/4) s (a/ρ)³ cos 2(ψ + r M − f), s = (B − A)/C, about ψ = 0, p = r.
+/// The planar Hamiltonian of a locked body, p²/2 − (3/4) s (a/ρ)³ cos 2(ψ + r M − f), s = (B − A)/C, about ψ = 0, p = r.
 fn planar(e: f64, r: f64, s: f64, degree: u32) -> impl Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync {
     move |phases: &[f64]| {
-        let anomaly = phases[0];
-        let mut x = anomaly;
-        for _ in 0..60 {
-            x -= (x - e * x.sin() - anomaly) / (1.0 - e * x.cos());
-        }
-        let f = 2.0 * (((1.0 + e) / (1.0 - e)).sqrt() * (x / 2.0).tan()).atan();
-        let cube = (1.0 - e * x.cos()).powi(-3);
-        let angle = 2.0 * (r * anomaly - f);
+        let (cube, angle) = forcing(e, r, phases[0]);
         let mut terms = vec![(Monomial::new(&[0, 2])?, 0.5)];
         let mut factor = 1.0;
         for k in 1..=degree {
             factor *= 2.0 / f64::from(k);
             // The k-th derivative of cos.
-            let slope = (angle + f64::from(k) * std::f64::consts::FRAC_PI_2).cos();
+            let slope = (angle + f64::from(k) * FRAC_PI_2).cos();
             terms.push((Monomial::new(&[k, 0])?, -0.75 * s * cube * factor * slope));
         }
         Ok(terms)
     }
 }
 
+/// (a/ρ)³ and 2(r M − f).
+fn forcing(e: f64, r: f64, anomaly: f64) -> (f64, f64) {
+    let turn = TAU * (anomaly / TAU).round();
+    let mean = anomaly - turn;
+    let mut x = mean;
+    for _ in 0..60 {
+        x -= (x - e * x.sin() - mean) / (1.0 - e * x.cos());
+    }
+    let f = 2.0 * (((1.0 + e) / (1.0 - e)).sqrt() * (x / 2.0).tan()).atan();
+    ((1.0 - e * x.cos()).powi(-3), 2.0 * (r * anomaly - f - turn))
+}
+
 #[test]
-fn timing() -> Result<(), Error> {
-    for (e, r, s, order) in [(0.01, 1.0, 0.1, 8), (0.0549, 1.0, 2.27e-4, 6), (0.2056, 1.5, 1e-4, 4)] {
-        let system = SampledHamiltonian::new(1, planar(e, r, s, 12));
-        let start = std::time::Instant::now();
-        let form = DrivenForm::new(&system, &[1.0], options(order), &mut quiet)?;
-        println!(
-            "{e} {order} {:?} {:?} {} {:?}",
-            start.elapsed(),
-            form.exponents(),
-            form.grid().times(),
-            form.divisors().first()
-        );
-        let start = std::time::Instant::now();
-        let motion = PeriodicMotion::new(&system, Grid::new(&[(1.0, 15)]), None)?;
-        println!("   motion {:?} {:?}", start.elapsed(), motion.tails());
+fn a_planar_libration_from_samples_is_that_of_an_integration() -> Result<(), Error> {
+    for (e, r, s, order, bound) in [(0.01, 1.0, 0.1, 8, 1e-9), (0.2056, 1.5, 1e-4, 4, 1e-9), (0.05, 1.0, 0.1, 6, 1e-5)]
+    {
+        let form =
+            DrivenForm::new(&SampledHamiltonian::new(1, planar(e, r, s, 14)), &[1.0], options(order), &mut quiet)?;
+        let rates = |t: f64, [psi, p]: [f64; 2]| {
+            let (cube, angle) = forcing(e, r, t);
+            [p, -1.5 * s * cube * (2.0 * psi + angle).sin()]
+        };
+        let error = miss(&form, 1.0, [0.02, 0.0], 30, rates)?;
+        assert!(error < bound, "{e}: {error:e}");
     }
     Ok(())
+}
+
+#[test]
+fn a_driven_duffing_oscillator_moves_as_its_integration() -> Result<(), Error> {
+    let form = form("(p^2 + x^2)/2 + x^4/4 - 0.05*x*cos(M)", &[("x", "p")], &[0.37], 8)?;
+    let rates = |t: f64, [x, p]: [f64; 2]| [p, -x - x.powi(3) + 0.05 * (0.37 * t).cos()];
+    let error = miss(&form, 0.37, [0.1, 0.0], 10, rates)?;
+    assert!(error < 1e-9, "{error:e}");
+    Ok(())
+}
+
+#[test]
+fn a_linear_oscillator_with_two_forces_has_the_motion_of_the_formula() -> Result<(), Error> {
+    let form = form("(p^2 + 4*x^2)/2 - x*cos(M) - 0.5*x*sin(3*N)", &[("x", "p")], &[1.0, 0.7], 2)?;
+    for phases in [[0.3, 2.0], [-1.0, 0.1]] {
+        let [x, _] = form.periodic(&phases)[..] else { panic!() };
+        let exact = phases[0].cos() / 3.0 + 0.5 * (3.0 * phases[1]).sin() / (4.0 - 2.1 * 2.1);
+        assert!((x - exact).abs() < 1e-14, "{x} {exact}");
+    }
+    assert!((omega(&form) - 2.0).abs() < 1e-15);
+    Ok(())
+}
+
+#[test]
+fn a_saddle_has_its_rate_and_its_forced_motion() -> Result<(), Error> {
+    let form = form("(p^2 - x^2)/2 - x*cos(M)", &[("x", "p")], &[2.0], 2)?;
+    let Exponent::Saddle(rate) = form.exponents()[0] else { panic!("{:?}", form.exponents()) };
+    assert!((rate - 1.0).abs() < 1e-14, "{rate}");
+    assert!((form.periodic(&[0.4])[0] + 0.4_f64.cos() / 5.0).abs() < 1e-14);
+    Ok(())
+}
+
+#[test]
+fn without_a_phase_the_form_is_that_of_the_exact_normalization() -> Result<(), Error> {
+    let text = "(p^2 + q^2)/2 + (P^2 + 3*Q^2)/2 + q^2*Q - Q^3/7 + q^4/5";
+    let pairs = [("q", "p"), ("Q", "P")];
+    let (driven, space) = (form(text, &pairs, &[], 6)?, PhaseSpace::new(&pairs)?);
+    let plain = normalize(&space.parse::<f64>(text)?, 6, &space)?.in_actions()?;
+    for (monomial, c) in driven.in_actions()?.terms() {
+        let other = plain.coefficient(&monomial).copied().unwrap_or(0.0);
+        assert!((c - other).abs() < 1e-13 * (1.0 + other.abs()), "{monomial:?}: {c} {other}");
+    }
+    Ok(())
+}
+
+#[test]
+fn what_has_no_frame_is_an_error_that_says_why() {
+    let pair = [("x", "p")];
+    // The first tongue of Mathieu's equation: negative multipliers over π, positive ones over 2π.
+    let unstable = form("(p^2 + x^2)/2 - 0.2*x^2*cos(M)", &pair, &[2.0], 0);
+    assert!(matches!(unstable, Err(Error::MultiplierUnsupported { .. })), "{unstable:?}");
+    let saddle = form("(p^2 + x^2)/2 - 0.2*x^2*cos(2*M)", &pair, &[1.0], 0).map(|form| form.exponents().to_vec());
+    assert!(matches!(saddle.as_deref(), Ok([Exponent::Saddle(_)])), "{saddle:?}");
+    let resonant = form("(p^2 + x^2)/2 - x*cos(M)", &pair, &[1.0], 0);
+    assert!(matches!(resonant, Err(Error::NoPeriodicMotion { .. })), "{resonant:?}");
+    let small = form("(p^2 + x^2)/2 + x^3*cos(M)", &pair, &[3.0], 2);
+    assert!(matches!(small, Err(Error::SmallDivisor { .. })), "{small:?}");
 }
