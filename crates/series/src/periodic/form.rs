@@ -69,8 +69,8 @@ pub struct Harmonic {
 /// The normal form of a driven Hamiltonian about its periodic motion.
 #[derive(Clone, Debug)]
 pub struct DrivenForm {
-    motion: PeriodicMotion,
-    transform: LieTransform<Periodic>,
+    pub(super) motion: PeriodicMotion,
+    pub(super) transform: LieTransform<Periodic>,
     /// K in u and U without the constant.
     hamiltonian: Polynomial<Complex<f64>>,
     /// ∂K/∂I of the modes, in the actions.

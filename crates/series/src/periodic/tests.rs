@@ -126,6 +126,24 @@ fn a_linear_oscillator_with_two_forces_has_the_motion_of_the_formula() -> Result
 }
 
 #[test]
+fn functions_are_transported_to_the_variables_of_the_states() -> Result<(), Error> {
+    let form = form("(p^2 + x^2)/2 + x^4/4 - 0.05*x*cos(M)", &[("x", "p")], &[0.37], 8)?;
+    let (phases, state) = ([1.3], [0.05, -0.03]);
+    let normal = form.at(&phases).to_normal(&state)?;
+    let x = Polynomial::variable(0)?;
+    let seen = form.direct(&x.power(2)?, &phases, &mut quiet)?.evaluate(&normal)?;
+    assert!((seen - state[0] * state[0]).abs() < 1e-12, "{seen}");
+    let back = form.inverse(&x, &phases, &mut quiet)?.evaluate(&state)?;
+    assert!((back - normal[0]).abs() < 1e-10, "{back} {}", normal[0]);
+    let moved = form.trajectory(&state, &phases, &[0.0, 2.0])?;
+    let later = form.at(&[1.3 + 0.74]);
+    let rates = form.frequencies(&form.actions_of(&normal))?;
+    let other = later.from_normal(&form.advanced(&normal, &rates, 2.0))?;
+    assert!((moved[0][0] - state[0]).abs() < 1e-14 && (moved[1][1] - other[1]).abs() < 1e-13, "{moved:?} {other:?}");
+    Ok(())
+}
+
+#[test]
 fn a_saddle_has_its_rate_and_its_forced_motion() -> Result<(), Error> {
     let form = form("(p^2 - x^2)/2 - x*cos(M)", &[("x", "p")], &[2.0], 2)?;
     let Exponent::Saddle(rate) = form.exponents()[0] else { panic!("{:?}", form.exponents()) };
