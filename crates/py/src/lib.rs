@@ -15,6 +15,7 @@ mod body;
 mod cassini;
 mod computing;
 mod domain;
+mod driven;
 mod ensemble;
 mod error;
 mod expression;
@@ -53,6 +54,8 @@ mod _core {
     use super::computing::_panic;
     #[pymodule_export]
     use super::domain::Domain;
+    #[pymodule_export]
+    use super::driven::{Driven, DrivenNormalForm};
     #[pymodule_export]
     use super::ensemble::Ensemble;
     #[pymodule_export]

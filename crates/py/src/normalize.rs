@@ -5,11 +5,13 @@ use andoyer_series::progress::Progress;
 use andoyer_series::real_field::RealField;
 use andoyer_series::{Error as Algebra, MAX_EXPONENT, PhaseSpace, normalize_driven};
 use num_rational::BigRational;
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
 
 use crate::birkhoff::BirkhoffNormalForm;
+use crate::driven::Driven;
 use crate::error;
 use crate::expression::{Expression, number};
 use crate::form::{Form, rounded};
@@ -35,10 +37,11 @@ use crate::progress;
 /// parameters : sequence of str, or dict of {str: number}, optional
 ///     Symbols in the coefficients, as names or SymPy symbols. Variables and parameters together are at most eight. A parameter in the quadratic part is a
 ///     detuning, like d in ``(1 + d)*y^2/2``. In a dict the number of a parameter is put in its place, and the form does not contain this parameter; a parameter with None stays a symbol.
-/// driven : dict of {str: number or (number, float)}, optional
+/// driven : dict of {str: number or (number, float)}, or Driven, optional
 ///     Driven phases M = M₀ + n t: the frequency n, or (n, M₀), by name or SymPy symbol. M₀ is 0 by default. The Hamiltonian contains them as ``cos(j*M)`` and ``sin(j*M)`` with
 ///     integers j; in a dict of coefficients the exponents are followed by j for each phase, which means cos jM for j ≥ 0 and sin ``|j|M`` for j < 0. A term with a
 ///     phase counts one order more. Terms of order 0, which are linear, are a force: the variables are measured from its motion. A phase takes one of the eight places.
+///     A `Driven` gives the form about the periodic motion instead, a `DrivenNormalForm`: for strong drives, and for coefficients that are sampled.
 /// degrees : dict of {str: int}, optional
 ///     The degree of each parameter in the ordering of the terms; by default 2 for a detuning and 0 for any other parameter.
 /// frequency : (str, str), optional
@@ -95,7 +98,7 @@ pub(crate) fn normalize(
     order: &Bound<'_, PyAny>,
     variables: &Bound<'_, PyAny>,
     parameters: Option<&Bound<'_, PyAny>>,
-    driven: Option<&Bound<'_, PyDict>>,
+    driven: Option<&Bound<'_, PyAny>>,
     degrees: Option<&Bound<'_, PyDict>>,
     frequency: Option<(String, String)>,
     resonances: Option<&Bound<'_, PyAny>>,
@@ -103,8 +106,29 @@ pub(crate) fn normalize(
     smallest_divisor: f64,
     exact: Option<bool>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<BirkhoffNormalForm> {
+) -> PyResult<Py<PyAny>> {
     let space = space(variables, parameters, degrees)?;
+    if let Some(driven) = driven.and_then(|driven| driven.cast::<Driven>().ok()) {
+        let given = [
+            ("parameters", parameters.is_some()),
+            ("frequency", frequency.is_some()),
+            ("resonances", resonances.is_some()),
+            ("keep", keep.is_some()),
+        ];
+        if let Some((name, _)) = given.into_iter().find(|(_, given)| *given) {
+            let message = format!("{name}: a form with a Driven has none; driven={{name: rate}} takes them");
+            return Err(error::input(name, "given", "None", message));
+        }
+        if exact == Some(true) {
+            let message = "exact = True: a form with a Driven has floats".to_owned();
+            return Err(error::input("exact", "True", "None or False", message));
+        }
+        let order = self::order("order", order, 0, LARGEST_DRIVEN)?;
+        let tolerances = (smallest_divisor, TAIL);
+        let form = crate::driven::normalized(py, hamiltonian, order, &space, driven.get(), tolerances, progress)?;
+        return form.into_py_any(py);
+    }
+    let driven = driven.map(|driven| driven.cast::<PyDict>().map_err(|_| wrong_driven(driven))).transpose()?;
     let (phases, driven_float) = phases(driven)?;
     let names: Vec<&str> = phases.iter().map(|(name, ..)| name.as_str()).collect();
     let space = space.with_driven(&names).map_err(|problem| error::algebra_of("driven", problem))?;
@@ -151,7 +175,16 @@ pub(crate) fn normalize(
         }
     };
     let form = progress::reported(py, progress, compute)?;
-    Ok(BirkhoffNormalForm::new(form, symbols))
+    BirkhoffNormalForm::new(form, symbols).into_py_any(py)
+}
+
+/// The highest order with a [`Driven`], and the size of the last harmonics.
+const LARGEST_DRIVEN: usize = 60;
+const TAIL: f64 = 1e-13;
+
+fn wrong_driven(driven: &Bound<'_, PyAny>) -> PyErr {
+    let kind = driven.get_type().name().map_or_else(|_| "?".to_owned(), |name| name.to_string());
+    PyTypeError::new_err(format!("driven must be a dict of rates by name or a Driven, not {kind}"))
 }
 
 /// The SymPy symbols among the arguments by their names, with their assumptions.

@@ -173,7 +173,7 @@ def test_boom_satellite_swings_with_root_three_and_two(thin):
 
 def test_half_rotation_an_orbit_is_stable_across():
     turned = angles(math.pi / 2, 0, 0)
-    motion = scene(andoyer.Body([0.9, 0.9005, 1.0]), turned, 0.5, 0.1, orbits=100, tolerance=1e-6).solve()
+    motion = scene(andoyer.Body([0.97, 0.9705, 1.0]), turned, 0.5, 0.1, orbits=100, tolerance=1e-6).solve()
     assert motion.plan.resonance == Fraction(1, 2)
     assert motion.verify().holds
 
@@ -187,7 +187,7 @@ REFUSED = [
     ("revolution", {"body": andoyer.Body([0.9, 0.9, 1.0])}, "A = B"),
     ("sphere", {"body": andoyer.Body([1.0, 1.0, 1.0])}, "A = B"),
     ("far", {"attitude": angles(0.8, 0, 0)}, "46 degrees"),
-    ("elongated", {"body": andoyer.Body([0.5, 0.75, 1.0]), "orbit": andoyer.Orbit(1.0, 0.3)}, "range"),
+    ("elongated", {"body": andoyer.Body([0.5, 0.75, 1.0]), "orbit": andoyer.Orbit(1.0, 0.3)}, "unstable"),
 ]
 
 
@@ -279,7 +279,7 @@ def test_command_names_the_file_and_the_reason_without_a_libration(tmp_path, cap
 
 def test_command_is_strict_about_a_missed_tolerance(tmp_path, capsys):
     path = tmp_path / "elongated.toml"
-    path.write_text(scene(andoyer.Body([0.5, 0.75, 1.0]), eccentricity=0.01, orbits=50, tolerance=1e-12).to_toml(), encoding="utf-8")
+    path.write_text(scene(andoyer.Body([0.5, 0.75, 1.0]), eccentricity=0.01, orbits=50, tolerance=1e-15).to_toml(), encoding="utf-8")
     for options, expected in (((), 0), (("--strict",), 3)):
         status, lines, errors = printed(capsys, path, *options)
         assert status == expected and lines and "exceeds the tolerance" in errors

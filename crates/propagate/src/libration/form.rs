@@ -1,16 +1,17 @@
 //! Normal forms about a resonance, kept for the next scene of the same body and orbit.
 
+use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use andoyer_series::Error;
-use andoyer_series::periodic::{DrivenForm, DrivenOptions};
+use andoyer_series::periodic::{DrivenForm, DrivenOptions, Exponent};
 
 use super::shape::{LockedShape, PlaneMotion};
 use crate::numerics::kept::KeptForms;
 
-/// Divisors below this, in units of n, end a normal form: the estimate refuses larger ones that are too small.
+/// Divisors below this part of the largest frequency end a normal form: the estimate refuses larger ones that are too small.
 const SMALLEST_DIVISOR: f64 = 1e-9;
 /// The last harmonics of the periodic motion and of its frame are at most this fraction of the tolerance, and not below the second number, which rounding reaches.
 const TAIL: [f64; 2] = [1e-4, 1e-13];
@@ -39,5 +40,16 @@ pub(super) fn form(
         false => ControlFlow::Continue(()),
     };
     let options = DrivenOptions { order, tolerance: tail.exp2(), smallest_divisor: SMALLEST_DIVISOR };
-    KeptForms::shared().of(key, || DrivenForm::new(shape, &shape.rates(), options, &mut going))
+    KeptForms::shared().of(key, || {
+        let form = DrivenForm::new(shape, &shape.rates(), options, &mut going)?;
+        let growth = |exponent: &Exponent| match exponent {
+            Exponent::Saddle(rate) => Some([(TAU * rate.abs()).exp(), 0.0]),
+            Exponent::Centre(_) => None,
+        };
+        let multipliers: Vec<_> = form.exponents().iter().filter_map(growth).collect();
+        if multipliers.is_empty() {
+            return Ok(form);
+        }
+        Err(Error::MultiplierUnsupported { multipliers, problem: "grow in each orbit: the motion is unstable" })
+    })
 }

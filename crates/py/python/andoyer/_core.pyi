@@ -851,6 +851,79 @@ class Domain:
         """The order whose size is least at an amplitude."""
     def __eq__(self, other: object, /) -> bool: ...
 
+@final
+class Driven:
+    """Coefficients that are periodic functions of driven phases M = n t, for `normalize`: the normal form about the periodic motion."""
+
+    def __init__(
+        self, rate: ArrayLike, samples: Callable[..., dict[tuple[int, ...], float]] | None = None, names: Sequence[str] | None = None
+    ) -> None: ...
+    @property
+    def rates(self) -> list[float]:
+        """The rates of the phases [rad per unit of time]."""
+    @property
+    def names(self) -> list[str]:
+        """The names of the phases."""
+
+@final
+class DrivenNormalForm:
+    """The normal form of a Hamiltonian about a periodic motion, from `normalize` with a `Driven`."""
+
+    @property
+    def order(self) -> int:
+        """The order N: terms to degree N + 2."""
+    @property
+    def variables(self) -> tuple[tuple[str, str], ...]:
+        """The pairs (q, p)."""
+    @property
+    def driven(self) -> dict[str, float]:
+        """The driven phases: {name: rate}."""
+    @property
+    def frequencies(self) -> tuple[float | complex, ...]:
+        """Floquet's exponents on the branch that continues the frequencies without drive: ω of a centre, negative if its energy is negative; iλ of a saddle."""
+    @property
+    def kinds(self) -> tuple[Literal["elliptic", "hyperbolic"], ...]:
+        """The kind of every mode: "elliptic" or "hyperbolic"."""
+    @property
+    def times(self) -> int:
+        """The number of times at which a coefficient is held."""
+    @property
+    def memory(self) -> int:
+        """The memory of the form [bytes]."""
+    @property
+    def divisors(self) -> list[tuple[tuple[int, ...], float]]:
+        """The smallest divisors k·ω + j·n of the transformation: pairs of the integers (k, j) and the value [rad per unit of time], the smallest first."""
+    def periodic(self, phases: ArrayLike) -> _Array:
+        """The periodic motion at phases."""
+    def in_actions(self) -> dict[tuple[int, ...], float]:
+        """K as a function of the actions: coefficients by exponents of I₁, I₂, …."""
+    def direct(self, function: _Expression, time: float = 0.0) -> dict[tuple[int, ...], float]:
+        """Expresses a function of the old variables in the new ones at a time."""
+    def inverse(self, function: _Expression, time: float = 0.0) -> dict[tuple[int, ...], float]:
+        """Expresses a function of the new variables in the old ones at a time."""
+    def to_normal(self, states: ArrayLike, time: ArrayLike | None = None) -> _Array:
+        """Transforms states to the new variables, by iteration on the inverse of this transformation."""
+    def from_normal(self, states: ArrayLike, time: ArrayLike | None = None) -> _Array:
+        """Transforms new variables to states. The errors are those of `to_normal`."""
+    def actions(self, states: ArrayLike, time: ArrayLike | None = None) -> _Array:
+        """The actions of states. Along a motion they are almost constant."""
+    def frequency_map(self, actions: ArrayLike) -> _Array:
+        """The rates ∂K/∂I at actions: frequencies of centres, growth rates of saddles."""
+    def trajectory(self, state: ArrayLike, times: ArrayLike, time: float = 0.0) -> _Array:
+        """Propagates a state by the normal form to times after it."""
+
+@overload
+def normalize(
+    hamiltonian: _Expression | None,
+    order: int,
+    variables: Sequence[tuple[Any, Any]],
+    *,
+    driven: Driven,
+    smallest_divisor: float = 1e-6,
+    exact: Literal[False] | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> DrivenNormalForm: ...
+@overload
 def normalize(
     hamiltonian: _Expression,
     order: int,

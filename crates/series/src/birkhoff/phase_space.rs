@@ -114,6 +114,12 @@ impl PhaseSpace {
         Ok(self)
     }
 
+    /// This space without its driven phases.
+    #[must_use]
+    pub fn still(&self) -> Self {
+        PhaseSpace { driven: Vec::new(), ..self.clone() }
+    }
+
     /// This space with a new name for a parameter.
     pub(super) fn with_renamed(&self, parameter: &str, name: &str) -> Result<Self, Error> {
         let mut renamed = self.clone().with_degree(parameter, 0)?;

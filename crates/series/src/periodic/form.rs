@@ -44,7 +44,7 @@ pub struct DrivenOptions {
     pub order: usize,
     /// Harmonics at the border of the grid are at most this, relative to variables of size 1.
     pub tolerance: f64,
-    /// A smaller divisor is refused [rad per unit of time].
+    /// A divisor below this, relative to the largest frequency, is refused.
     pub smallest_divisor: f64,
 }
 
@@ -117,7 +117,9 @@ impl DrivenForm {
                 series[order].add_term(monomial, c);
             }
         }
-        let solve = |order: usize, known: &Polynomial<Periodic>| removal(&motion, &options, order, known);
+        let fastest = motion.exponents.iter().map(|one| one.frequency().norm()).fold(0.0, f64::max);
+        let bound = options.smallest_divisor * fastest;
+        let solve = |order: usize, known: &Polynomial<Periodic>| removal(&motion, bound, order, known);
         let normal = normalize_by(&series, &poisson, options.order, &solve, progress)?;
         let mut hamiltonian = Polynomial::zero();
         for part in &normal.hamiltonian {
@@ -433,7 +435,7 @@ fn turns(monomial: Monomial, modes: usize) -> Vec<i64> {
 /// The solution of the homological equation. For saddles the divisor is complex: k·ω with ω = iλ.
 fn removal(
     motion: &PeriodicMotion,
-    options: &DrivenOptions,
+    bound: f64,
     order: usize,
     known: &Polynomial<Periodic>,
 ) -> Result<Removal<Periodic>, Error> {
@@ -458,14 +460,14 @@ fn removal(
         };
         for (at, c) in harmonics.iter_mut().enumerate().filter(|(_, c)| !c.is_zero()) {
             let divisor = own + grid.rate(at);
-            if divisor.norm() < options.smallest_divisor {
+            if divisor.norm() < bound {
                 let j = grid.multiples(at);
                 return Err(Error::SmallDivisor {
                     order,
                     term: format!("multiples {j:?} of the driven phases"),
                     k: [k, j].concat(),
                     divisor: divisor.norm(),
-                    bound: options.smallest_divisor,
+                    bound,
                 });
             }
             *c /= Complex::<f64>::i() * divisor;

@@ -55,6 +55,7 @@ const ROUNDING: f64 = 1e-14;
 /// A divisor below this part of the eigenvalue is a resonance, unless the harmonic is rounding.
 const RESONANT: f64 = 1e-10;
 const NOISE: f64 = 1e-12;
+const QUARTET: &str = "include a quartet off the unit circle: the motion is unstable";
 /// A Newton step beyond this has left the range.
 const FAR: f64 = 1e3;
 /// Most steps towards P, and their largest size.
@@ -212,7 +213,10 @@ fn frame(grid: &Grid, second: &Matrix<Periodic>, known: Option<Frame>) -> Result
     }
     // Multipliers that coincide without a drive that couples them have the frame of the mean.
     let found = start(grid, second, start_of_one).and_then(|frame| refined(grid, second, frame));
-    found.or_else(|error| refined(grid, second, start(grid, second, |_, mean| still(mean)).or(Err(error))?))
+    found.or_else(|error| {
+        let mean = start(grid, second, |_, mean| still(mean));
+        mean.and_then(|frame| refined(grid, second, frame)).map_err(|_| error)
+    })
 }
 
 /// Newton steps to a frame.
@@ -374,11 +378,16 @@ fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Frame, Error> 
     let rows: Matrix<f64> = (0..n).map(|i| (0..n).map(|j| cayley[(i, j)]).collect()).collect();
     let turned: Matrix<f64> = turned_rows(&rows).into_iter().map(|row| row.iter().map(|c| -c).collect()).collect();
     let form = (0..n).map(|i| (0..n).map(|j| 0.5 * (turned[i][j] + turned[j][i])).collect()).collect::<Vec<_>>();
-    let found = diagonal(&form).map_err(|_| unsupported("include a pair of 1 without two directions, or a quartet"))?;
+    let found = diagonal(&form).map_err(|_| unsupported("include a pair of 1 without two directions"))?;
+    if found.modes.iter().any(|mode| matches!(mode, Mode::Complex { .. })) {
+        return Err(unsupported(QUARTET));
+    }
     let (columns, exponents) = columns(&found, |exponent| match exponent {
         Exponent::Centre(tangent) => Ok(Exponent::Centre(2.0 * tangent.atan() / period)),
         Exponent::Saddle(tangent) if tangent < 1.0 => Ok(Exponent::Saddle(2.0 * tangent.atanh() / period)),
-        Exponent::Saddle(_) => Err(unsupported("are negative, and no real frame of this period exists")),
+        Exponent::Saddle(_) => {
+            Err(unsupported("are negative: the motion is unstable, and no real frame of this period exists"))
+        }
     })?;
     // Φ(M) c e^{−λ t} is periodic.
     let eigenvalues: Vec<_> = exponents.iter().flat_map(|exponent| exponent.eigenvalues()).collect();
@@ -439,10 +448,7 @@ fn columns(
                 exponents.push(exponent(Exponent::Saddle(*rate))?);
             }
             Mode::Complex { rate, frequency, .. } => {
-                return Err(Error::MultiplierUnsupported {
-                    multipliers: vec![[*rate, *frequency]],
-                    problem: "form a quartet, for which no frame is built",
-                });
+                return Err(Error::MultiplierUnsupported { multipliers: vec![[*rate, *frequency]], problem: QUARTET });
             }
         }
     }
