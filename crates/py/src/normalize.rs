@@ -180,7 +180,7 @@ pub(crate) fn normalize(
 
 /// The highest order with a [`Driven`], and the size of the last harmonics.
 const LARGEST_DRIVEN: usize = 60;
-const TAIL: f64 = 1e-13;
+const TAIL: f64 = 1e-12;
 
 fn wrong_driven(driven: &Bound<'_, PyAny>) -> PyErr {
     let kind = driven.get_type().name().map_or_else(|_| "?".to_owned(), |name| name.to_string());

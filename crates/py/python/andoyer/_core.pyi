@@ -855,7 +855,7 @@ class Domain:
 class Driven:
     """Coefficients that are periodic functions of driven phases M = n t, for `normalize`: the normal form about the periodic motion."""
 
-    def __init__(self, rate: ArrayLike, samples: Callable[..., dict[tuple[int, ...], float]] | None = None, names: Sequence[str] | None = None) -> None: ...
+    def __new__(cls, rate: ArrayLike, samples: Callable[..., dict[tuple[int, ...], float]] | None = None, names: Sequence[str] | None = None) -> Driven: ...
     @property
     def rates(self) -> list[float]:
         """The rates of the phases [rad per unit of time]."""

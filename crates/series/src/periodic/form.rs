@@ -28,7 +28,7 @@ use crate::triangle::{LieTransform, Progress, Removal, normalize_by};
 const FEWEST: usize = 3;
 const MOST: usize = 255;
 /// Grids without a solution after which there is none.
-const FAILURES: usize = 3;
+const FAILURES: usize = 4;
 /// Harmonics below this part of the largest one of a generator have no divisor that counts.
 const NEGLIGIBLE: f64 = 1e-10;
 /// Divisors that are kept for the user.

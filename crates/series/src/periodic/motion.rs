@@ -162,11 +162,12 @@ impl PeriodicMotion {
     }
 }
 
-/// For each phase the largest of the last harmonics of functions.
+/// For each phase the largest of the last harmonics of functions, over the size of each function that is above 1.
 fn tails<'a>(grid: &Grid, functions: impl Iterator<Item = &'a Periodic>) -> Vec<f64> {
     let mut most = vec![0.0_f64; grid.phases()];
     for function in functions {
-        most.iter_mut().zip(grid.tails(function)).for_each(|(most, tail)| *most = most.max(tail));
+        let size = function.size().max(1.0);
+        most.iter_mut().zip(grid.tails(function)).for_each(|(most, tail)| *most = most.max(tail / size));
     }
     most
 }
@@ -464,19 +465,18 @@ fn continued(
 ) -> Result<(Vec<Vec<Periodic>>, Vec<Exponent>), Error> {
     let count = exponents.len();
     let known = undriven.and_then(|undriven| self::columns(undriven, Ok).ok());
-    // Overlap of mode m and its harmonic with the undriven mode k, or the size of the harmonic.
     let mut overlaps = Vec::new();
     for mode in 0..count {
         let harmonics: Vec<_> = columns[2 * mode + 1].iter().map(|entry| grid.harmonics(entry)).collect();
         for at in 0..grid.times() {
             let vector: Vec<_> = harmonics.iter().map(|row| row[at]).collect();
-            match &known {
-                Some((modes, kinds)) => {
-                    for place in (0..count).filter(|&place| same(kinds[place], exponents[mode])) {
-                        overlaps.push((pairing(&modes[2 * place], &vector).norm(), mode, place, at));
-                    }
-                }
-                None => overlaps.push((vector.iter().map(Complex::norm_sqr).sum::<f64>(), mode, mode, at)),
+            let places = known.iter().flat_map(|(modes, kinds)| modes.iter().step_by(2).zip(kinds).enumerate());
+            let alike = places.filter(|(_, (_, kind))| same(**kind, exponents[mode]));
+            let before = overlaps.len();
+            overlaps.extend(alike.map(|(place, (known, _))| (pairing(known, &vector).norm(), mode, place, at)));
+            // A mode of a kind that none has without drive: its largest harmonic.
+            if overlaps.len() == before {
+                overlaps.push((vector.iter().map(Complex::norm_sqr).sum::<f64>(), mode, mode, at));
             }
         }
     }
@@ -502,7 +502,7 @@ fn continued(
     Ok((ordered, kinds))
 }
 
-/// The mode and the harmonic of each place, from overlaps with mode, place and harmonic. Modes of another kind than any without drive take the places that are left.
+/// The mode and the harmonic of each place, from overlaps with mode, place and harmonic. Modes that are left take the places that are left.
 fn assigned(mut overlaps: Vec<(f64, usize, usize, usize)>, count: usize) -> Vec<(usize, usize)> {
     overlaps.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut taken: Vec<Option<(usize, usize)>> = vec![None; count];
