@@ -158,35 +158,63 @@ impl Drive<Complex<f64>> {
     }
 }
 
+/// Sines, cosines and momenta of a state.
+struct Angles<N> {
+    psi: [N; 2],
+    theta: [N; 2],
+    phi: [N; 2],
+    secant: N,
+    tangent: N,
+    /// p_ψ, p_θ, p_φ.
+    momenta: [N; 3],
+}
+
 /// H in units of C n², of ψ, p_ψ − C W₃, θ, p_θ, φ, p_φ.
 pub(super) fn energy<N: Number>(shape: &LockedShape, state: &[N; 6], drive: &Drive<N>) -> Result<N, Error> {
     let [psi, p_psi, theta, p_theta, phi, p_phi] = state;
-    let [a, b, c] = shape.moments;
-    let spin = shape.precession.spin;
-    let ([sin_psi, cos_psi], [sin_theta, cos_theta], [sin_phi, cos_phi]) =
-        (psi.circle()?, theta.circle()?, phi.circle()?);
-    let secant = cos_theta.inverse()?;
-    let tangent = sin_theta.times(&secant)?;
-    let whole = p_psi.plus(&p_psi.constant(spin));
-    // Functions of φ: sin²/B + cos²/C, cos²/B + sin²/C, (1/B − 1/C) sin cos, by the difference of the moments, which would else be lost to rounding.
+    let theta = theta.circle()?;
+    let secant = theta[1].inverse()?;
+    let angles = Angles {
+        psi: psi.circle()?,
+        phi: phi.circle()?,
+        tangent: theta[0].times(&secant)?,
+        theta,
+        secant,
+        momenta: [p_psi.plus(&p_psi.constant(shape.precession.spin)), p_theta.clone(), p_phi.clone()],
+    };
+    let sum = kinetic(shape, &angles)?.plus(&potential(shape, &angles, drive)?);
+    if shape.precession.sideways == 0.0 { Ok(sum) } else { Ok(sum.plus(&sideways(shape, &angles, drive)?)) }
+}
+
+/// ½ Σ G²/I − W₃ p_ψ. Q = p_ψ sec θ + p_φ tan θ stays apart as a function of ψ, p_ψ and one of θ, φ: few products have all variables.
+fn kinetic<N: Number>(shape: &LockedShape, angles: &Angles<N>) -> Result<N, Error> {
+    let ([a, b, c], [p_psi, p_theta, p_phi]) = (shape.moments, &angles.momenta);
+    let [sine, cosine] = &angles.phi;
+    // sin²/B + cos²/C, cos²/B + sin²/C, (1/B − 1/C) sin cos, by the difference of the moments, which would else be lost to rounding.
     let difference = (c - b) / (b * c);
-    let square = sin_phi.times(&sin_phi)?.scaled(difference);
-    let gamma = square.plus(&phi.constant(1.0 / c));
-    let alpha = square.scaled(-1.0).plus(&phi.constant(1.0 / b));
-    let beta = sin_phi.times(&cos_phi)?.scaled(difference);
-    // Q = p_ψ sec θ + p_φ tan θ stays apart as a function of ψ, p_ψ and one of θ, φ: few products have all variables.
-    let slope = p_phi.times(&tangent)?;
+    let square = sine.times(sine)?.scaled(difference);
+    let gamma = square.plus(&sine.constant(1.0 / c));
+    let alpha = square.scaled(-1.0).plus(&sine.constant(1.0 / b));
+    let beta = sine.times(cosine)?.scaled(difference);
+    let slope = p_phi.times(&angles.tangent)?;
     let inner = p_phi
         .times(p_phi)?
         .scaled(0.5 / a)
         .plus(&alpha.times(&p_theta.times(p_theta)?)?.scaled(0.5))
         .plus(&beta.times(&p_theta.times(&slope)?)?)
         .plus(&gamma.times(&slope.times(&slope)?)?.scaled(0.5));
-    let linear = secant.times(&beta.times(p_theta)?.plus(&gamma.times(&slope)?))?;
-    let quadratic = secant.times(&secant)?.times(&gamma)?.scaled(0.5);
-    let kinetic =
-        inner.plus(&whole.times(&linear)?).plus(&whole.times(&whole)?.times(&quadratic)?).plus(&whole.scaled(-spin));
-    // The direction turned back by ψ, and the inertia tensor turned by θ and φ. Without B times the unit tensor, which adds a function of time alone.
+    let linear = angles.secant.times(&beta.times(p_theta)?.plus(&gamma.times(&slope)?))?;
+    let quadratic = angles.secant.times(&angles.secant)?.times(&gamma)?.scaled(0.5);
+    Ok(inner
+        .plus(&p_psi.times(&linear)?)
+        .plus(&p_psi.times(p_psi)?.times(&quadratic)?)
+        .plus(&p_psi.scaled(-shape.precession.spin)))
+}
+
+/// The torque's function: the direction turned back by ψ, and the inertia tensor turned by θ and φ. Without B times the unit tensor, which adds a function of time alone.
+fn potential<N: Number>(shape: &LockedShape, angles: &Angles<N>, drive: &Drive<N>) -> Result<N, Error> {
+    let [a, b, c] = shape.moments;
+    let ([sin_psi, cos_psi], [sin_theta, cos_theta], [sin_phi, cos_phi]) = (&angles.psi, &angles.theta, &angles.phi);
     let [x, y, z] = &drive.direction;
     let turned = [
         cos_psi.times(x)?.plus(&sin_psi.times(y)?),
@@ -194,13 +222,13 @@ pub(super) fn energy<N: Number>(shape: &LockedShape, state: &[N; 6], drive: &Dri
         z.clone(),
     ];
     let rows = [
-        [cos_theta.clone(), sin_theta.times(&sin_phi)?, sin_theta.times(&cos_phi)?],
-        [psi.constant(0.0), cos_phi.clone(), sin_phi.scaled(-1.0)],
-        [sin_theta.scaled(-1.0), cos_theta.times(&sin_phi)?, cos_theta.times(&cos_phi)?],
+        [cos_theta.clone(), sin_theta.times(sin_phi)?, sin_theta.times(cos_phi)?],
+        [sin_phi.constant(0.0), cos_phi.clone(), sin_phi.scaled(-1.0)],
+        [sin_theta.scaled(-1.0), cos_theta.times(sin_phi)?, cos_theta.times(cos_phi)?],
     ];
-    let mut sum = kinetic;
+    let mut sum = sin_phi.constant(0.0);
     for (i, j) in [(0, 0), (1, 1), (0, 1), (2, 2), (0, 2), (1, 2)] {
-        let mut tensor = psi.constant(0.0);
+        let mut tensor = sin_phi.constant(0.0);
         for (column, moment) in [(0, a - b), (2, c - b)] {
             tensor = tensor.plus(&rows[i][column].times(&rows[j][column])?.scaled(moment));
         }
@@ -208,17 +236,18 @@ pub(super) fn energy<N: Number>(shape: &LockedShape, state: &[N; 6], drive: &Dri
         let pair = turned[i].times(&turned[j])?.times(&drive.strength)?.scaled(twice);
         sum = sum.plus(&pair.times(&tensor)?);
     }
-    if shape.precession.sideways == 0.0 {
-        return Ok(sum);
-    }
-    // −W (G₁ sin α + G₂ cos α) with G₁ + i G₂ = e^{iψ} (p_ψ tan θ + p_φ sec θ + i p_θ)
-    let [sine, cosine] = &drive.node;
+    Ok(sum)
+}
+
+/// −W (G₁ sin α + G₂ cos α) with G₁ + i G₂ = e^{iψ} (p_ψ tan θ + p_φ sec θ + i p_θ).
+fn sideways<N: Number>(shape: &LockedShape, angles: &Angles<N>, drive: &Drive<N>) -> Result<N, Error> {
+    let ([sin_psi, cos_psi], [sine, cosine], [p_psi, p_theta, p_phi]) = (&angles.psi, &drive.node, &angles.momenta);
     let turn = [
         sin_psi.times(cosine)?.plus(&cos_psi.times(sine)?),
         cos_psi.times(cosine)?.plus(&sin_psi.times(sine)?.scaled(-1.0)),
     ];
-    let along = turn[0].times(&whole)?.times(&tangent)?.plus(&turn[0].times(&p_phi.times(&secant)?)?);
-    Ok(sum.plus(&along.plus(&turn[1].times(p_theta)?).scaled(-shape.precession.sideways)))
+    let across = turn[0].times(p_psi)?.times(&angles.tangent)?.plus(&turn[0].times(&p_phi.times(&angles.secant)?)?);
+    Ok(across.plus(&turn[1].times(p_theta)?).scaled(-shape.precession.sideways))
 }
 
 impl DrivenHamiltonian for LockedShape {

@@ -1,22 +1,34 @@
 //! Normal forms of Hamiltonians with driven phases, about their periodic motion.
 //!
-//! `row` is a coefficient that is a periodic function, held at the times of a `grid`. `motion` finds the periodic motion and Floquet's frame about it, from the matrix of
-//! `monodromy`; `form` expands the Hamiltonian there, normalizes it by Deprit's triangle, and evaluates the result; `transport` expresses functions. `polynomial` is a Hamiltonian that is a polynomial;
-//! other functions implement [`DrivenHamiltonian`].
+//! `row` is a coefficient that is a periodic function, held at the times of a `grid`. `motion` finds the periodic motion, `frame` Floquet's frame about it, from a `start` by the
+//! matrix of `monodromy`. `form` expands the Hamiltonian there and normalizes it by Deprit's triangle with the `divisors`. `state` transforms states, `fourier` gives the motion
+//! at fixed actions, `transport` expresses functions. `polynomial` is a Hamiltonian that is a polynomial; other functions implement [`DrivenHamiltonian`].
 
+mod divisors;
+mod exponent;
 mod form;
+mod fourier;
+mod frame;
 mod grid;
 mod monodromy;
 mod motion;
 mod polynomial;
+mod raw;
 mod row;
+mod start;
+mod state;
 mod transport;
 
-pub use form::{Divisor, DrivenForm, DrivenOptions, FormAtPhases, Harmonic};
+pub use divisors::Divisor;
+pub use exponent::Exponent;
+pub use form::{DrivenForm, DrivenOptions};
+pub use fourier::Harmonic;
 pub use grid::Grid;
-pub use motion::{DrivenHamiltonian, Exponent, PeriodicMotion};
+pub use motion::{DrivenHamiltonian, PeriodicMotion};
 pub use polynomial::{SampledHamiltonian, terms_at};
-pub use row::{Periodic, RawPeriodic};
+pub use raw::RawPeriodic;
+pub use row::Periodic;
+pub use state::FormAtPhases;
 
 #[cfg(test)]
 mod tests;

@@ -3,8 +3,8 @@
 use num_complex::Complex;
 use num_traits::Zero;
 
+use super::exponent::Exponent;
 use super::form::DrivenForm;
-use super::motion::Exponent;
 use super::row::Periodic;
 use crate::birkhoff::map::check;
 use crate::error::Error;

@@ -1,0 +1,149 @@
+//! Floquet's frame: the periodic change of variables that makes the motion about a periodic motion a constant one.
+//!
+//! ż = J S(M) z becomes ẇ = Λ w by z = P(M) w, symplectic and periodic, with a constant diagonal Λ: −iω for u and iω for U of a centre, ±λ for a saddle. A Newton step
+//! P e^X solves n∂X − [Λ, X] = R with the part R of P⁻¹(J S P − n∂P) that is not Λ; in harmonics it is a division by i j·n minus a difference of eigenvalues.
+
+use std::f64::consts::PI;
+
+use num_complex::Complex;
+use num_traits::Zero;
+
+use super::exponent::{Exponent, Frame};
+use super::grid::Grid;
+use super::row::{Periodic, product};
+use super::start::{start, start_of_one, still};
+use crate::birkhoff::matrix::{Matrix, symplectic_inverse, turned_rows, unit};
+use crate::error::Error;
+
+/// A step below this is rounding.
+pub(super) const REACHED: f64 = 1e-14;
+/// A step that is not smaller than this part of the one before ends the iteration, where both are small.
+pub(super) const SLOWEST: f64 = 0.5;
+pub(super) const SMALL: f64 = 1e-9;
+/// A divisor below this part of the eigenvalue is a resonance, unless the harmonic is rounding.
+const RESONANT: f64 = 1e-10;
+const NOISE: f64 = 1e-12;
+/// Most steps towards P, and their largest size.
+const FRAMES: usize = 25;
+const LARGEST: f64 = 0.3;
+
+/// The frame of ż = J S z, from a frame of a similar motion or anew.
+pub(super) fn frame(grid: &Grid, second: &Matrix<Periodic>, known: Option<Frame>) -> Result<Frame, Error> {
+    if let Some(Ok(frame)) = known.map(|known| refined(grid, second, known)) {
+        return Ok(frame);
+    }
+    // Multipliers that coincide without a drive that couples them have the frame of the mean.
+    let found = start(grid, second, start_of_one).and_then(|frame| refined(grid, second, frame));
+    found.or_else(|error| {
+        let mean = start(grid, second, |_, mean| still(mean));
+        mean.and_then(|frame| refined(grid, second, frame)).map_err(|_| error)
+    })
+}
+
+/// Newton steps to a frame.
+fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut exponents): Frame) -> Result<Frame, Error> {
+    let moved = turned_rows(second);
+    let mut before = f64::INFINITY;
+    for _ in 0..FRAMES {
+        change = product(&change, &correction(&change));
+        let mut rates = product(&moved, &change);
+        for (row, old) in rates.iter_mut().zip(&change) {
+            row.iter_mut().zip(old).for_each(|(entry, old)| *entry -= &grid.derivative(old));
+        }
+        let rates = product(&symplectic_inverse(&change), &rates);
+        for (mode, exponent) in exponents.iter_mut().enumerate() {
+            let [u, momentum] = [2 * mode, 2 * mode + 1].map(|slot| rates[slot][slot].mean());
+            let half = (momentum - u) / 2.0;
+            *exponent = match exponent {
+                Exponent::Centre(_) => Exponent::Centre(half.im),
+                Exponent::Saddle(_) => Exponent::Saddle(-half.re),
+            };
+        }
+        let eigenvalues: Vec<_> = exponents.iter().flat_map(|exponent| exponent.eigenvalues()).collect();
+        let step: Matrix<Periodic> = rates
+            .iter()
+            .enumerate()
+            .map(|(a, row)| {
+                let one = |(b, entry): (usize, &Periodic)| solved(grid, entry, eigenvalues[a] - eigenvalues[b], a == b);
+                row.iter().enumerate().map(one).collect()
+            })
+            .collect();
+        let step = hamiltonian_part(step);
+        let size = step.iter().flatten().map(Periodic::size).fold(0.0, f64::max);
+        // A step that rounding makes is not taken.
+        if size > before * SLOWEST && size < SMALL {
+            return Ok((change, exponents));
+        }
+        if !size.is_finite() {
+            break;
+        }
+        let step = if size > LARGEST { scaled(step, LARGEST / size) } else { step };
+        change = product(&change, &exponential(&step));
+        if size <= REACHED {
+            return Ok((change, exponents));
+        }
+        before = size;
+    }
+    let problem = "nearly coincide, and no periodic frame separates them";
+    Err(Error::MultiplierUnsupported { multipliers: multipliers(grid, &exponents), problem })
+}
+
+/// The solution f of n∂f − λ f = `function`, in the harmonics that the grid solves for, and without the mean if it is `kept`.
+pub(super) fn solved(grid: &Grid, function: &Periodic, lambda: Complex<f64>, kept: bool) -> Periodic {
+    grid.filtered(function, |at, c| {
+        if (at == 0 && kept) || !grid.is_solved(at) || c.is_zero() {
+            return Complex::zero();
+        }
+        let divisor = Complex::new(0.0, grid.rate(at)) - lambda;
+        // Rounding is no resonance.
+        if divisor.norm() <= RESONANT * lambda.norm() && c.norm() <= NOISE { Complex::zero() } else { c / divisor }
+    })
+}
+
+fn scaled(mut matrix: Matrix<Periodic>, factor: f64) -> Matrix<Periodic> {
+    matrix.iter_mut().flatten().for_each(|entry| *entry *= &Periodic::real(factor));
+    matrix
+}
+
+/// 1 − E/2 for a P with P⁻¹ P = 1 + E, E from rounding, where P⁻¹ is that of a symplectic matrix.
+fn correction(change: &Matrix<Periodic>) -> Matrix<Periodic> {
+    let mut factor = product(&symplectic_inverse(change), change);
+    for (row, unit) in factor.iter_mut().zip(unit::<Periodic>(change.len())) {
+        for (entry, unit) in row.iter_mut().zip(unit) {
+            *entry = Periodic::combined(&[((-0.5).into(), entry), (1.5.into(), &unit)]);
+        }
+    }
+    factor
+}
+
+/// The part (X + J Xᵀ J)/2 of a matrix whose flow is symplectic. Rounding alone makes the rest, but a small divisor enlarges it.
+fn hamiltonian_part(mut matrix: Matrix<Periodic>) -> Matrix<Periodic> {
+    let inverse = symplectic_inverse(&matrix);
+    matrix.iter_mut().flatten().zip(inverse.iter().flatten()).for_each(|(entry, other)| *entry -= other);
+    scaled(matrix, 0.5)
+}
+
+/// e^X of a small matrix.
+fn exponential(step: &Matrix<Periodic>) -> Matrix<Periodic> {
+    let n = step.len();
+    let (mut sum, mut power) = (unit::<Periodic>(n), unit::<Periodic>(n));
+    for k in 1..=16 {
+        power = product(&power, step);
+        power = scaled(power, 1.0 / f64::from(k));
+        let mut most = 0.0_f64;
+        for (sum, power) in sum.iter_mut().flatten().zip(power.iter().flatten()) {
+            *sum += power;
+            most = most.max(power.size());
+        }
+        if most < 1e-18 {
+            break;
+        }
+    }
+    sum
+}
+
+/// e^{λT} of the modes over the period of the first phase.
+fn multipliers(grid: &Grid, exponents: &[Exponent]) -> Vec<[f64; 2]> {
+    let period = grid.rates().first().map_or(0.0, |rate| 2.0 * PI / rate.abs());
+    exponents.iter().map(|exponent| (exponent.eigenvalues()[1] * period).exp()).map(|c| [c.re, c.im]).collect()
+}
