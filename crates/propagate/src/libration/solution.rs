@@ -41,7 +41,7 @@ const DROPPED: [f64; 2] = [1e-3, 0.1];
 /// Harmonics below this fraction of the tolerance are never formed.
 const NEGLIGIBLE: f64 = 1e-7;
 /// No further order is tried after one with so many harmonics: it would take some seconds.
-const MOST_HARMONICS: usize = 2000;
+const MOST_HARMONICS: usize = 6000;
 /// The libration of a body locked to an orbit: its proper modes and its terms, in the frame that turns with the resonance.
 #[derive(Clone, Debug)]
 pub struct Libration {

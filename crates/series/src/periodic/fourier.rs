@@ -8,6 +8,7 @@ use num_traits::Zero;
 use super::divisors::turns;
 use super::exponent::Exponent;
 use super::form::DrivenForm;
+use super::grid::Grid;
 use super::row::{Periodic, product};
 use crate::error::Error;
 use crate::polynomial::Polynomial;
@@ -21,6 +22,52 @@ pub struct Harmonic {
     pub amplitudes: Vec<Complex<f64>>,
 }
 
+/// Harmonics by the multiples k of the proper angles, the first that is not 0 positive: those of each variable, in the order of the grid.
+struct Sums<'a> {
+    grid: &'a Grid,
+    variables: usize,
+    by_angle: BTreeMap<Vec<i64>, Vec<Complex<f64>>>,
+}
+
+impl Sums<'_> {
+    /// Adds Re(factor · f(M) e^{ik·φ}) to a variable.
+    fn add(&mut self, k: &[i64], variable: usize, function: &Periodic, factor: f64) {
+        let negative = k.iter().find(|&&k| k != 0).is_some_and(|&k| k < 0);
+        let key = if negative { k.iter().map(|k| -k).collect() } else { k.to_vec() };
+        let (grid, times) = (self.grid, self.grid.times());
+        let all = self.by_angle.entry(key).or_insert_with(|| vec![Complex::zero(); self.variables * times]);
+        let own = &mut all[variable * times..][..times];
+        for (at, c) in grid.harmonics(function).into_iter().enumerate() {
+            match negative {
+                true => own[grid.opposite(at)] += c.conj() * factor,
+                false => own[at] += c * factor,
+            }
+        }
+    }
+
+    /// The harmonics of which an amplitude is above `least`.
+    fn harmonics(self, least: f64) -> Vec<Harmonic> {
+        let (grid, times) = (self.grid, self.grid.times());
+        let multiples: Vec<Vec<i64>> = (0..times).map(|at| grid.multiples(at)).collect();
+        let negative = |at: usize| multiples[at].iter().find(|&&j| j != 0).is_some_and(|&j| j < 0);
+        let mut kept = Vec::new();
+        for (k, all) in self.by_angle {
+            let still = k.iter().all(|&k| k == 0);
+            for at in (0..times).filter(|&at| !still || !negative(at)) {
+                // Without a proper angle j and −j are one harmonic.
+                let other = |own: &[Complex<f64>]| {
+                    if still && at != 0 { own[grid.opposite(at)].conj() } else { Complex::zero() }
+                };
+                let amplitudes: Vec<_> = all.chunks(times).map(|own| own[at] + other(own)).collect();
+                if amplitudes.iter().any(|c| c.norm() > least) {
+                    kept.push(Harmonic { multiples: [&k[..], &multiples[at]].concat(), amplitudes });
+                }
+            }
+        }
+        kept
+    }
+}
+
 impl DrivenForm {
     /// The state as a Fourier series in the proper angles and the driven phases, at fixed actions of centres. Harmonics whose amplitudes are all at most `least` are left out.
     ///
@@ -29,20 +76,9 @@ impl DrivenForm {
     pub fn fourier(&self, actions: &[f64], least: f64) -> Result<Vec<Harmonic>, Error> {
         self.frequencies(actions)?;
         self.centres()?;
-        let (modes, grid, n) = (actions.len(), self.grid(), self.motion.origin.len());
-        let mut sums: BTreeMap<Vec<i64>, Vec<Complex<f64>>> = BTreeMap::new();
-        let mut join = |mut multiples: Vec<i64>, variable: usize, c: Complex<f64>| {
-            let negative = multiples.iter().find(|&&k| k != 0).is_some_and(|&k| k < 0);
-            if negative {
-                multiples.iter_mut().for_each(|k| *k = -*k);
-            }
-            let sums = sums.entry(multiples).or_insert_with(|| vec![Complex::default(); n]);
-            sums[variable] += if negative { c.conj() } else { c };
-        };
+        let mut sums = Sums { grid: self.grid(), variables: self.motion.origin.len(), by_angle: BTreeMap::new() };
         for (variable, x) in self.motion.origin.iter().enumerate() {
-            for (at, c) in grid.harmonics(x).into_iter().enumerate().filter(|(_, c)| !c.is_zero()) {
-                join([vec![0; modes], grid.multiples(at)].concat(), variable, c);
-            }
+            sums.add(&vec![0; actions.len()], variable, x, 1.0);
         }
         let mut rows: BTreeMap<Vec<i64>, Vec<(usize, Periodic)>> = BTreeMap::new();
         for (slot, image) in &self.images {
@@ -56,17 +92,12 @@ impl DrivenForm {
                 .map(|row| rows.iter().map(|(slot, _)| row[*slot].clone()).collect())
                 .collect();
             for (variable, sum) in product(&used, &column).into_iter().enumerate() {
-                if 2.0 * sum[0].size() <= least / grid.times() as f64 {
-                    continue;
-                }
-                for (at, c) in grid.harmonics(&sum[0]).into_iter().enumerate() {
-                    join([k.clone(), grid.multiples(at)].concat(), variable, c * 2.0);
+                if 2.0 * sum[0].size() > least / self.grid().times() as f64 {
+                    sums.add(&k, variable, &sum[0], 2.0);
                 }
             }
         }
-        let counts = |amplitudes: &[Complex<f64>]| amplitudes.iter().any(|c| c.norm() > least);
-        let kept = sums.into_iter().filter(|(_, amplitudes)| counts(amplitudes));
-        Ok(kept.map(|(multiples, amplitudes)| Harmonic { multiples, amplitudes }).collect())
+        Ok(sums.harmonics(least))
     }
 
     /// Refuses modes that are no centres.

@@ -102,6 +102,12 @@ impl Grid {
         places
     }
 
+    /// The index of the harmonic with the opposite multiples.
+    pub(super) fn opposite(&self, index: usize) -> usize {
+        let places = self.places(index).into_iter().zip(&self.axes);
+        places.fold(0, |sum, (place, axis)| sum * axis.count + (axis.count - place) % axis.count)
+    }
+
     /// The phases at a time \[rad\].
     #[must_use]
     pub fn angles(&self, index: usize) -> Vec<f64> {
