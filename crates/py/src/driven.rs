@@ -3,15 +3,16 @@
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
-use andoyer_series::periodic::{DrivenForm, DrivenOptions, Exponent, SampledHamiltonian, terms_at};
+use andoyer_series::birkhoff::Mode;
+use andoyer_series::periodic::{Divisor, DrivenForm, DrivenOptions, SampledHamiltonian, terms_at};
 use andoyer_series::progress::Progress;
 use andoyer_series::{Error as Algebra, Monomial, PhaseSpace, Polynomial};
 use numpy::{IntoPyArray, PyArray1, PyArrayDyn};
-use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::{PyComplex, PyDict, PyTuple};
+use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::{Rows, Times, fixed_length, numbers_of, row_by_row, write};
+use crate::birkhoff::frequency;
 use crate::error;
 use crate::expression::{Expression, actions, real};
 use crate::form::rounded;
@@ -223,19 +224,14 @@ impl DrivenNormalForm {
     /// Floquet's exponents on the branch that continues the frequencies without drive: ω of a centre, negative if its energy is negative; iλ of a saddle.
     #[getter]
     fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let number = |exponent: &Exponent| match exponent {
-            Exponent::Centre(omega) => omega.into_bound_py_any(py),
-            Exponent::Saddle(lambda) => Ok(PyComplex::from_doubles(py, 0.0, *lambda).into_any()),
-        };
-        PyTuple::new(py, self.form.exponents().iter().map(number).collect::<PyResult<Vec<_>>>()?)
+        let number = |mode: &Mode<f64>| frequency(py, &mode.frequency());
+        PyTuple::new(py, self.form.modes().iter().map(number).collect::<PyResult<Vec<_>>>()?)
     }
 
     /// The kind of every mode: "elliptic" or "hyperbolic".
     #[getter]
     fn kinds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let kind =
-            |exponent: &Exponent| if matches!(exponent, Exponent::Centre(_)) { "elliptic" } else { "hyperbolic" };
-        PyTuple::new(py, self.form.exponents().iter().map(kind))
+        PyTuple::new(py, self.form.modes().iter().map(Mode::kind))
     }
 
     /// The number of times at which a coefficient is held.
@@ -253,8 +249,7 @@ impl DrivenNormalForm {
     /// The smallest divisors k·ω + j·n of the transformation: pairs of the integers (k, j) and the value [rad per unit of time], the smallest first.
     #[getter]
     fn divisors<'py>(&self, py: Python<'py>) -> PyResult<Vec<(Bound<'py, PyTuple>, f64)>> {
-        let pair =
-            |divisor: &andoyer_series::periodic::Divisor| Ok((PyTuple::new(py, &divisor.multiples)?, divisor.value));
+        let pair = |divisor: &Divisor| Ok((PyTuple::new(py, &divisor.multiples)?, divisor.value));
         self.form.divisors().iter().map(pair).collect()
     }
 

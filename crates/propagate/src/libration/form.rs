@@ -6,7 +6,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use andoyer_series::Error;
-use andoyer_series::periodic::{DrivenForm, DrivenOptions, Exponent};
+use andoyer_series::birkhoff::Mode;
+use andoyer_series::periodic::{DrivenForm, DrivenOptions};
 
 use super::shape::{LockedShape, PlaneMotion};
 use crate::numerics::kept::KeptForms;
@@ -42,11 +43,11 @@ pub(super) fn form(
     let options = DrivenOptions { order, tolerance: tail.exp2(), smallest_divisor: SMALLEST_DIVISOR };
     KeptForms::shared().of(key, || {
         let form = DrivenForm::new(shape, &shape.rates(), options, &mut going)?;
-        let growth = |exponent: &Exponent| match exponent {
-            Exponent::Saddle(rate) => Some([(TAU * rate.abs()).exp(), 0.0]),
-            Exponent::Centre(_) => None,
+        let growth = |mode: &Mode<f64>| match mode {
+            Mode::Hyperbolic { rate } => Some([(TAU * rate.abs()).exp(), 0.0]),
+            _ => None,
         };
-        let multipliers: Vec<_> = form.exponents().iter().filter_map(growth).collect();
+        let multipliers: Vec<_> = form.modes().iter().filter_map(growth).collect();
         if multipliers.is_empty() {
             return Ok(form);
         }

@@ -304,7 +304,7 @@ impl BirkhoffNormalForm {
 }
 
 /// A frequency as a real number if it is real, otherwise as a complex number.
-fn frequency<'py, R: RealField + IntoPyObject<'py>>(
+pub(crate) fn frequency<'py, R: RealField + IntoPyObject<'py>>(
     py: Python<'py>,
     omega: &Complex<R>,
 ) -> PyResult<Bound<'py, PyAny>> {

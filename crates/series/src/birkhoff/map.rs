@@ -299,7 +299,7 @@ impl BirkhoffMap {
 }
 
 /// The complex variables whose images determine the real variables of a mode.
-fn needed(mode: usize, kind: &Mode<f64>) -> Vec<usize> {
+pub(crate) fn needed(mode: usize, kind: &Mode<f64>) -> Vec<usize> {
     match kind {
         Mode::Elliptic { .. } => vec![2 * mode + 1],
         Mode::Complex { frequency, .. } if *frequency < 0.0 => Vec::new(),

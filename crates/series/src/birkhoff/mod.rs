@@ -16,7 +16,7 @@ mod actions;
 mod code;
 pub(crate) mod diagonal;
 mod domain;
-mod flow;
+pub(crate) mod flow;
 mod json;
 pub(crate) mod map;
 pub(crate) mod matrix;

@@ -47,8 +47,8 @@ pub(super) fn removal(
             image.push((monomial, c.clone()));
             continue;
         }
-        let k = turns(monomial, motion.exponents.len());
-        let own: Complex<f64> = k.iter().zip(&motion.exponents).map(|(&k, one)| one.frequency() * k as f64).sum();
+        let k = turns(monomial, motion.modes.len());
+        let own: Complex<f64> = k.iter().zip(&motion.modes).map(|(&k, one)| one.frequency() * k as f64).sum();
         let still = k.iter().all(|&k| k == 0);
         let mut harmonics = grid.harmonics(c);
         let removed = if still {
@@ -85,7 +85,7 @@ pub(super) fn divisors(motion: &PeriodicMotion, transform: &LieTransform<Periodi
     for generator in (1..=transform.order()).filter_map(|m| transform.scaled_generator(m)) {
         let most = generator.terms().map(|(_, c)| c.size()).fold(0.0, f64::max);
         for (monomial, c) in generator.terms() {
-            let k = turns(monomial, motion.exponents.len());
+            let k = turns(monomial, motion.modes.len());
             for (at, c) in motion.grid.harmonics(c).into_iter().enumerate() {
                 if c.norm() <= NEGLIGIBLE * most {
                     continue;
@@ -95,7 +95,7 @@ pub(super) fn divisors(motion: &PeriodicMotion, transform: &LieTransform<Periodi
                     multiples.iter_mut().for_each(|k| *k = -*k);
                 }
                 let own: Complex<f64> =
-                    multiples.iter().zip(&motion.exponents).map(|(&k, one)| one.frequency() * k as f64).sum();
+                    multiples.iter().zip(&motion.modes).map(|(&k, one)| one.frequency() * k as f64).sum();
                 let driven: f64 =
                     multiples[k.len()..].iter().zip(motion.grid.rates()).map(|(&j, rate)| j as f64 * rate).sum();
                 let value = own + driven;

@@ -12,10 +12,12 @@
 use num_complex::Complex;
 
 use super::divisors::{Divisor, divisors, removal};
-use super::exponent::Exponent;
 use super::grid::Grid;
 use super::motion::{DrivenHamiltonian, PeriodicMotion};
 use super::row::Periodic;
+use super::start::eigenvalues;
+use crate::birkhoff::Mode;
+use crate::birkhoff::map::{check, needed};
 use crate::birkhoff::matrix::symplectic_inverse;
 use crate::bracket::Poisson;
 use crate::error::Error;
@@ -82,16 +84,16 @@ impl DrivenForm {
         let degree = options.order as u32 + 2;
         let expanded = system.expanded(&motion.grid, &motion.variables()?, degree)?;
         let mut series = vec![Polynomial::zero(); options.order + 1];
-        for (mode, exponent) in motion.exponents.iter().enumerate() {
+        for (mode, kind) in motion.modes.iter().enumerate() {
             let action = Monomial::ONE.with(2 * mode, 1)?.with(2 * mode + 1, 1)?;
-            series[0].add_term(action, &Periodic::Constant(exponent.eigenvalues()[0]));
+            series[0].add_term(action, &Periodic::Constant(eigenvalues(kind)[0]));
         }
         for (monomial, c) in expanded.terms() {
             if let Some(order @ 1..) = (monomial.total_degree() as usize).checked_sub(2) {
                 series[order].add_term(monomial, c);
             }
         }
-        let fastest = motion.exponents.iter().map(|one| one.frequency().norm()).fold(0.0, f64::max);
+        let fastest = motion.modes.iter().map(|one| one.frequency().norm()).fold(0.0, f64::max);
         let bound = options.smallest_divisor * fastest;
         let solve = |order: usize, known: &Polynomial<Periodic>| removal(&motion, bound, order, known);
         let normal = normalize_by(&series, &poisson, options.order, &solve, progress)?;
@@ -101,18 +103,15 @@ impl DrivenForm {
         }
         let transform = normal.transform;
         let mut images = Vec::new();
-        for (mode, exponent) in motion.exponents.iter().enumerate() {
-            let slots = if matches!(exponent, Exponent::Centre(_)) { 1..2 } else { 0..2 };
-            for slot in slots.map(|slot| 2 * mode + slot) {
-                let mut image = Polynomial::zero();
-                for part in transform.direct_with(&Polynomial::variable(slot)?, progress)? {
-                    image += &part;
-                }
-                images.push((slot, image));
+        for slot in motion.modes.iter().enumerate().flat_map(|(mode, kind)| needed(mode, kind)) {
+            let mut image = Polynomial::zero();
+            for part in transform.direct_with(&Polynomial::variable(slot)?, progress)? {
+                image += &part;
             }
+            images.push((slot, image));
         }
         let divisors = divisors(&motion, &transform);
-        let frequencies = frequencies(&hamiltonian, &motion.exponents)?;
+        let frequencies = frequencies(&hamiltonian, &motion.modes)?;
         Ok(Self { motion, transform, hamiltonian, frequencies, images, divisors })
     }
 
@@ -128,10 +127,10 @@ impl DrivenForm {
         &self.motion.grid
     }
 
-    /// The exponents of Floquet, on the branch that continues the modes without drive.
+    /// The modes, with Floquet's exponents as frequencies, on the branch that continues those without drive, and the ratio 1.
     #[must_use]
-    pub fn exponents(&self) -> &[Exponent] {
-        &self.motion.exponents
+    pub fn modes(&self) -> &[Mode<f64>] {
+        &self.motion.modes
     }
 
     /// The smallest divisors of the generators, the smallest first.
@@ -151,7 +150,7 @@ impl DrivenForm {
     /// # Errors
     /// - None: K has no exponent beyond those of its terms.
     pub fn in_actions(&self) -> Result<Polynomial<f64>, Error> {
-        in_actions(&self.hamiltonian, &self.motion.exponents)
+        in_actions(&self.hamiltonian, &self.motion.modes)
     }
 
     /// Its memory, in bytes.
@@ -186,12 +185,12 @@ impl DrivenForm {
     /// # Errors
     /// - another number of actions: [`Error::CountMismatch`]; a result that is not finite: [`Error::NotFinite`].
     pub fn frequencies(&self, actions: &[f64]) -> Result<Vec<f64>, Error> {
-        crate::birkhoff::map::check("actions", actions, self.motion.exponents.len())?;
+        check("actions", actions, self.motion.modes.len())?;
         self.frequencies.iter().map(|frequency| frequency.evaluate(actions)).collect()
     }
 }
 
-/// The periodic motion on a grid that is fine enough. A grid that is too coarse can have no solution; after two of them there is none.
+/// The periodic motion on a grid that is fine enough. A grid that is too coarse can have no solution; after `FAILURES` of them there is none.
 fn settled(system: &dyn DrivenHamiltonian, rates: &[f64], tolerance: f64) -> Result<PeriodicMotion, Error> {
     let mut halves = vec![FEWEST; rates.len()];
     let (mut known, mut failures) = (None, 0);
@@ -207,26 +206,26 @@ fn settled(system: &dyn DrivenHamiltonian, rates: &[f64], tolerance: f64) -> Res
         if !coarse.contains(&true) || failures == FAILURES || rates.is_empty() {
             return found;
         }
-        if halves.iter().zip(&coarse).any(|(&half, &coarse)| coarse && 2 * half > MOST) {
+        if halves.iter().zip(&coarse).any(|(&half, &coarse)| coarse && half == MOST) {
             let rest = tails.iter().copied().fold(0.0, f64::max);
             return found.and(Err(Error::GridTooFine { harmonics: MOST, rest, tolerance }));
         }
         known = found.ok();
         for (half, _) in halves.iter_mut().zip(coarse).filter(|(_, coarse)| *coarse) {
-            *half += *half / 2 + 1;
+            *half = (*half + *half / 2 + 1).min(MOST);
         }
     }
 }
 
-fn in_actions(hamiltonian: &Polynomial<Complex<f64>>, exponents: &[Exponent]) -> Result<Polynomial<f64>, Error> {
+fn in_actions(hamiltonian: &Polynomial<Complex<f64>>, modes: &[Mode<f64>]) -> Result<Polynomial<f64>, Error> {
     let mut sum = Polynomial::zero();
     for (monomial, c) in hamiltonian.terms() {
         let mut target = Monomial::ONE;
         let mut factor = *c;
-        for (mode, exponent) in exponents.iter().enumerate() {
+        for (mode, kind) in modes.iter().enumerate() {
             let power = monomial.exponent(2 * mode);
             target = target.with(mode, power)?;
-            if matches!(exponent, Exponent::Centre(_)) {
+            if kind.is_elliptic() {
                 factor *= Complex::<f64>::i().powu(power);
             }
         }
@@ -235,7 +234,7 @@ fn in_actions(hamiltonian: &Polynomial<Complex<f64>>, exponents: &[Exponent]) ->
     Ok(sum)
 }
 
-fn frequencies(hamiltonian: &Polynomial<Complex<f64>>, exponents: &[Exponent]) -> Result<Vec<Polynomial<f64>>, Error> {
-    let actions = in_actions(hamiltonian, exponents)?;
-    (0..exponents.len()).map(|mode| actions.derivative(mode)).collect()
+fn frequencies(hamiltonian: &Polynomial<Complex<f64>>, modes: &[Mode<f64>]) -> Result<Vec<Polynomial<f64>>, Error> {
+    let actions = in_actions(hamiltonian, modes)?;
+    (0..modes.len()).map(|mode| actions.derivative(mode)).collect()
 }

@@ -6,7 +6,6 @@ use num_complex::Complex;
 use num_traits::Zero;
 
 use super::divisors::turns;
-use super::exponent::Exponent;
 use super::form::DrivenForm;
 use super::grid::Grid;
 use super::row::{Periodic, product};
@@ -102,12 +101,9 @@ impl DrivenForm {
 
     /// Refuses modes that are no centres.
     fn centres(&self) -> Result<(), Error> {
-        let exponents = &self.motion.exponents;
-        let found = exponents.iter().filter(|exponent| matches!(exponent, Exponent::Centre(_))).count();
-        if found == exponents.len() {
-            return Ok(());
-        }
-        Err(Error::CountMismatch { what: "centres", found, expected: exponents.len() })
+        let (found, expected) =
+            (self.motion.modes.iter().filter(|mode| mode.is_elliptic()).count(), self.motion.modes.len());
+        if found == expected { Ok(()) } else { Err(Error::CountMismatch { what: "centres", found, expected }) }
     }
 }
 

@@ -8,11 +8,11 @@ use std::f64::consts::PI;
 use num_complex::Complex;
 use num_traits::Zero;
 
-use super::exponent::{Exponent, Frame};
 use super::grid::Grid;
 use super::row::{Periodic, product};
-use super::start::{start, start_of_one, still};
+use super::start::{Frame, eigenvalues, start, start_of_one, still};
 use crate::birkhoff::matrix::{Matrix, symplectic_inverse, turned_rows, unit};
+use crate::birkhoff::mode::Mode;
 use crate::error::Error;
 
 /// A step below this is rounding.
@@ -41,7 +41,7 @@ pub(super) fn frame(grid: &Grid, second: &Matrix<Periodic>, known: Option<Frame>
 }
 
 /// Newton steps to a frame.
-fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut exponents): Frame) -> Result<Frame, Error> {
+fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut modes): Frame) -> Result<Frame, Error> {
     let moved = turned_rows(second);
     let mut before = f64::INFINITY;
     for _ in 0..FRAMES {
@@ -51,15 +51,15 @@ fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut exponents): 
             row.iter_mut().zip(old).for_each(|(entry, old)| *entry -= &grid.derivative(old));
         }
         let rates = product(&symplectic_inverse(&change), &rates);
-        for (mode, exponent) in exponents.iter_mut().enumerate() {
-            let [u, momentum] = [2 * mode, 2 * mode + 1].map(|slot| rates[slot][slot].mean());
+        for (number, mode) in modes.iter_mut().enumerate() {
+            let [u, momentum] = [2 * number, 2 * number + 1].map(|slot| rates[slot][slot].mean());
             let half = (momentum - u) / 2.0;
-            *exponent = match exponent {
-                Exponent::Centre(_) => Exponent::Centre(half.im),
-                Exponent::Saddle(_) => Exponent::Saddle(-half.re),
-            };
+            match mode {
+                Mode::Elliptic { frequency, .. } => *frequency = half.im,
+                Mode::Hyperbolic { rate } | Mode::Complex { rate, .. } => *rate = -half.re,
+            }
         }
-        let eigenvalues: Vec<_> = exponents.iter().flat_map(|exponent| exponent.eigenvalues()).collect();
+        let eigenvalues: Vec<_> = modes.iter().flat_map(eigenvalues).collect();
         let step: Matrix<Periodic> = rates
             .iter()
             .enumerate()
@@ -72,7 +72,7 @@ fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut exponents): 
         let size = step.iter().flatten().map(Periodic::size).fold(0.0, f64::max);
         // A step that rounding makes is not taken.
         if size > before * SLOWEST && size < SMALL {
-            return Ok((change, exponents));
+            return Ok((change, modes));
         }
         if !size.is_finite() {
             break;
@@ -80,12 +80,12 @@ fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut exponents): 
         let step = if size > LARGEST { scaled(step, LARGEST / size) } else { step };
         change = product(&change, &exponential(&step));
         if size <= REACHED {
-            return Ok((change, exponents));
+            return Ok((change, modes));
         }
         before = size;
     }
     let problem = "nearly coincide, and no periodic frame separates them";
-    Err(Error::MultiplierUnsupported { multipliers: multipliers(grid, &exponents), problem })
+    Err(Error::MultiplierUnsupported { multipliers: multipliers(grid, &modes), problem })
 }
 
 /// The solution f of n∂f − λ f = `function`, in the harmonics that the grid solves for, and without the mean if it is `kept`.
@@ -143,7 +143,7 @@ fn exponential(step: &Matrix<Periodic>) -> Matrix<Periodic> {
 }
 
 /// e^{λT} of the modes over the period of the first phase.
-fn multipliers(grid: &Grid, exponents: &[Exponent]) -> Vec<[f64; 2]> {
+fn multipliers(grid: &Grid, modes: &[Mode<f64>]) -> Vec<[f64; 2]> {
     let period = grid.rates().first().map_or(0.0, |rate| 2.0 * PI / rate.abs());
-    exponents.iter().map(|exponent| (exponent.eigenvalues()[1] * period).exp()).map(|c| [c.re, c.im]).collect()
+    modes.iter().map(|mode| (eigenvalues(mode)[1] * period).exp()).map(|c| [c.re, c.im]).collect()
 }

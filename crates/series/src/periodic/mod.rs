@@ -5,7 +5,6 @@
 //! at fixed actions, `transport` expresses functions. `polynomial` is a Hamiltonian that is a polynomial; other functions implement [`DrivenHamiltonian`].
 
 mod divisors;
-mod exponent;
 mod form;
 mod fourier;
 mod frame;
@@ -20,7 +19,6 @@ mod state;
 mod transport;
 
 pub use divisors::Divisor;
-pub use exponent::Exponent;
 pub use form::{DrivenForm, DrivenOptions};
 pub use fourier::Harmonic;
 pub use grid::Grid;

@@ -6,11 +6,12 @@
 
 use num_traits::Zero;
 
-use super::exponent::Exponent;
 use super::frame::{REACHED, SLOWEST, SMALL, frame, solved};
 use super::grid::Grid;
 use super::row::{Periodic, product};
+use super::start::eigenvalues;
 use crate::birkhoff::matrix::{Matrix, symplectic_inverse, turned, unit};
+use crate::birkhoff::mode::Mode;
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
@@ -45,7 +46,7 @@ pub struct PeriodicMotion {
     pub(super) origin: Vec<Periodic>,
     /// P: rows q₁, p₁, …, columns u₁, U₁, …; for a centre u = (q + ip)/2 and U = 2iū of the real normal variables.
     pub(super) change: Matrix<Periodic>,
-    pub(super) exponents: Vec<Exponent>,
+    pub(super) modes: Vec<Mode<f64>>,
     /// For each phase the largest of the last harmonics of x̄, P and the derivatives of H.
     pub(super) tails: Vec<f64>,
 }
@@ -62,18 +63,18 @@ impl PeriodicMotion {
             let onto = |function: &Periodic| grid.sampled(|phases| function.weighted(&known.grid.weights(phases)));
             origin = known.origin.iter().map(onto).collect();
             let change = known.change.iter().map(|row| row.iter().map(onto).collect()).collect();
-            kept = Some((change, known.exponents.clone()));
+            kept = Some((change, known.modes.clone()));
         }
         for _ in 0..STEPS {
             let (slopes, second) = quadratic(system, &grid, &origin)?;
-            let (change, exponents) = frame(&grid, &second, kept.take())?;
+            let (change, modes) = frame(&grid, &second, kept.take())?;
             let mut left = turned(&slopes);
             for (left, x) in left.iter_mut().zip(&origin) {
                 *left -= &grid.derivative(x);
             }
             let left: Matrix<Periodic> = left.into_iter().map(|row| vec![row]).collect();
             let inner = product(&symplectic_inverse(&change), &left);
-            let eigenvalues = exponents.iter().flat_map(|exponent| exponent.eigenvalues());
+            let eigenvalues = modes.iter().flat_map(eigenvalues);
             let step: Matrix<Periodic> = inner
                 .iter()
                 .zip(eigenvalues)
@@ -89,13 +90,13 @@ impl PeriodicMotion {
             let slow = size > before * SLOWEST && size < SMALL * scale;
             if size <= REACHED * scale || slow {
                 let (slopes, second) = quadratic(system, &grid, &origin)?;
-                let (change, exponents) = frame(&grid, &second, Some((change, exponents)))?;
+                let (change, modes) = frame(&grid, &second, Some((change, modes)))?;
                 let functions = origin.iter().chain(&slopes).chain(change.iter().flatten());
                 let tails = tails(&grid, functions.chain(second.iter().flatten()));
-                return Ok(Self { grid, origin, change, exponents, tails });
+                return Ok(Self { grid, origin, change, modes, tails });
             }
             before = size;
-            kept = Some((change, exponents));
+            kept = Some((change, modes));
         }
         Err(Error::NoPeriodicMotion { miss: before, steps: STEPS })
     }

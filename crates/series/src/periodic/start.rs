@@ -10,7 +10,6 @@ use nalgebra::DMatrix;
 use num_complex::Complex;
 use num_traits::Zero;
 
-use super::exponent::{Exponent, Frame};
 use super::grid::Grid;
 use super::monodromy::monodromy;
 use super::row::Periodic;
@@ -24,6 +23,9 @@ use crate::polynomial::Polynomial;
 
 /// A mean below this part of the largest value is rounding.
 const ROUNDING: f64 = 1e-14;
+/// A frame: P, whose centres have the ratio 1, and the modes.
+pub(super) type Frame = (Matrix<Periodic>, Vec<Mode<f64>>);
+
 const QUARTET: &str = "include a quartet off the unit circle: the motion is unstable";
 
 /// A first frame: that of the mean over all phases but the first.
@@ -38,8 +40,8 @@ pub(super) fn start(
         if mean.size() > ROUNDING * c.size() { mean } else { Periodic::zero() }
     };
     let over = |row: &Vec<Periodic>| row.iter().map(mean).collect();
-    let (change, exponents) = of_one(&grid.first(), &second.iter().map(over).collect())?;
-    Ok((change.iter().map(|row| row.iter().map(|c| grid.extended(c)).collect()).collect(), exponents))
+    let (change, modes) = of_one(&grid.first(), &second.iter().map(over).collect())?;
+    Ok((change.iter().map(|row| row.iter().map(|c| grid.extended(c)).collect()).collect(), modes))
 }
 
 /// The modes of the mean.
@@ -50,9 +52,9 @@ fn undriven(second: &Matrix<Periodic>) -> Result<Diagonal<f64>, Error> {
 
 /// The frame of the mean.
 pub(super) fn still(second: &Matrix<Periodic>) -> Result<Frame, Error> {
-    let (columns, exponents) = columns(&undriven(second)?, Ok)?;
+    let (columns, modes) = columns(&undriven(second)?)?;
     let row = |row: usize| columns.iter().map(|column| Periodic::Constant(column[row])).collect();
-    Ok(((0..second.len()).map(row).collect(), exponents))
+    Ok(((0..second.len()).map(row).collect(), modes))
 }
 
 /// A first frame with one phase or none.
@@ -81,15 +83,28 @@ pub(super) fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Fra
     if found.modes.iter().any(|mode| matches!(mode, Mode::Complex { .. })) {
         return Err(unsupported(QUARTET));
     }
-    let (columns, exponents) = columns(&found, |exponent| match exponent {
-        Exponent::Centre(tangent) => Ok(Exponent::Centre(2.0 * tangent.atan() / period)),
-        Exponent::Saddle(tangent) if tangent < 1.0 => Ok(Exponent::Saddle(2.0 * tangent.atanh() / period)),
-        Exponent::Saddle(_) => {
-            Err(unsupported("are negative: the motion is unstable, and no real frame of this period exists"))
+    let (mut columns, mut modes) = columns(&found)?;
+    // The tangents of half the angles are the frequencies of the form.
+    for (number, mode) in modes.iter_mut().enumerate() {
+        match mode {
+            Mode::Elliptic { frequency, .. } => *frequency = 2.0 * frequency.atan() / period,
+            Mode::Hyperbolic { rate } if *rate < 1.0 => {
+                *rate = 2.0 * rate.atanh() / period.abs();
+                // With a phase that falls the directions change places: (q, p) becomes (p, −q).
+                if period < 0.0 {
+                    columns.swap(2 * number, 2 * number + 1);
+                    columns[2 * number + 1].iter_mut().for_each(|c| *c = -*c);
+                }
+            }
+            _ => {
+                return Err(unsupported(
+                    "are negative: the motion is unstable, and no real frame of this period exists",
+                ));
+            }
         }
-    })?;
+    }
     // Φ(M) c e^{−λ t} is periodic.
-    let eigenvalues: Vec<_> = exponents.iter().flat_map(|exponent| exponent.eigenvalues()).collect();
+    let eigenvalues: Vec<_> = modes.iter().flat_map(eigenvalues).collect();
     let carried = |column: &Vec<Complex<f64>>, lambda: Complex<f64>| -> Vec<Periodic> {
         let values = |row: usize| -> Vec<Complex<f64>> {
             (0..grid.times())
@@ -102,9 +117,9 @@ pub(super) fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Fra
         };
         (0..n).map(|row| Periodic::of(&values(row))).collect()
     };
-    let modes = columns.iter().zip(&eigenvalues).map(|(column, &lambda)| carried(column, lambda)).collect();
-    let (modes, exponents) = continued(grid, modes, exponents, undriven(second).ok().as_ref())?;
-    Ok((transposed(&modes), exponents))
+    let columns = columns.iter().zip(&eigenvalues).map(|(column, &lambda)| carried(column, lambda)).collect();
+    let (columns, modes) = continued(grid, columns, modes, undriven(second).ok().as_ref());
+    Ok((transposed(&columns), modes))
 }
 
 /// The modes of ½ zᵀ A z.
@@ -124,13 +139,16 @@ fn diagonal(matrix: &[Vec<f64>]) -> Result<Diagonal<f64>, Error> {
 /// Columns of P at one time.
 type Columns = Vec<Vec<Complex<f64>>>;
 
-/// The columns of u₁, U₁, … of modes, and their exponents.
-fn columns(
-    diagonal: &Diagonal<f64>,
-    mut exponent: impl FnMut(Exponent) -> Result<Exponent, Error>,
-) -> Result<(Columns, Vec<Exponent>), Error> {
+/// The eigenvalues of u and of U: −iω and iω.
+pub(super) fn eigenvalues(mode: &Mode<f64>) -> [Complex<f64>; 2] {
+    let turned = Complex::<f64>::i() * mode.frequency();
+    [-turned, turned]
+}
+
+/// The columns of u₁, U₁, … of modes, and the modes, with the ratio 1.
+fn columns(diagonal: &Diagonal<f64>) -> Result<(Columns, Vec<Mode<f64>>), Error> {
     let column = |slot: usize| diagonal.matrix.iter().map(|row| row[slot]).collect::<Vec<_>>();
-    let (mut all, mut exponents) = (Vec::new(), Vec::new());
+    let (mut all, mut modes) = (Vec::new(), Vec::new());
     for (mode, kind) in diagonal.modes.iter().enumerate() {
         let (q, p) = (column(2 * mode), column(2 * mode + 1));
         match kind {
@@ -139,37 +157,36 @@ fn columns(
                 let u: Vec<_> = q.iter().zip(&p).map(|(q, p)| Complex::new(root * q, -p / root)).collect();
                 all.push(u.clone());
                 all.push(u.iter().map(|c| Complex::new(0.0, -0.5) * c.conj()).collect());
-                exponents.push(exponent(Exponent::Centre(*frequency))?);
+                modes.push(Mode::Elliptic { frequency: *frequency, ratio: 1.0 });
             }
-            Mode::Hyperbolic { rate } => {
-                all.push(q.iter().map(|&x| x.into()).collect());
-                all.push(p.iter().map(|&x| x.into()).collect());
-                exponents.push(exponent(Exponent::Saddle(*rate))?);
+            Mode::Hyperbolic { .. } => {
+                all.extend([q, p].map(|column| column.iter().map(|&x| x.into()).collect::<Vec<_>>()));
+                modes.push(kind.clone());
             }
             Mode::Complex { rate, frequency, .. } => {
                 return Err(Error::MultiplierUnsupported { multipliers: vec![[*rate, *frequency]], problem: QUARTET });
             }
         }
     }
-    Ok((all, exponents))
+    Ok((all, modes))
 }
 
-/// The modes in the order, and the exponents on the branch, of the modes without drive.
+/// The modes in the order, and the frequencies on the branch, of the modes without drive.
 fn continued(
     grid: &Grid,
     columns: Vec<Vec<Periodic>>,
-    exponents: Vec<Exponent>,
+    modes: Vec<Mode<f64>>,
     undriven: Option<&Diagonal<f64>>,
-) -> Result<(Vec<Vec<Periodic>>, Vec<Exponent>), Error> {
-    let count = exponents.len();
-    let known = undriven.and_then(|undriven| self::columns(undriven, Ok).ok());
+) -> (Vec<Vec<Periodic>>, Vec<Mode<f64>>) {
+    let count = modes.len();
+    let known = undriven.and_then(|undriven| self::columns(undriven).ok());
     let mut overlaps = Vec::new();
     for mode in 0..count {
         let harmonics: Vec<_> = columns[2 * mode + 1].iter().map(|entry| grid.harmonics(entry)).collect();
         for at in 0..grid.times() {
             let vector: Vec<_> = harmonics.iter().map(|row| row[at]).collect();
-            let places = known.iter().flat_map(|(modes, kinds)| modes.iter().step_by(2).zip(kinds).enumerate());
-            let alike = places.filter(|(_, (_, kind))| same(**kind, exponents[mode]));
+            let places = known.iter().flat_map(|(columns, kinds)| columns.iter().step_by(2).zip(kinds).enumerate());
+            let alike = places.filter(|(_, (_, kind))| kind.is_elliptic() == modes[mode].is_elliptic());
             let before = overlaps.len();
             overlaps.extend(alike.map(|(place, (known, _))| (pairing(known, &vector).norm(), mode, place, at)));
             // A mode of a kind that none has without drive: its largest harmonic.
@@ -180,12 +197,8 @@ fn continued(
     }
     let (mut ordered, mut kinds) = (Vec::new(), Vec::new());
     for (mode, at) in assigned(overlaps, count) {
-        match exponents[mode] {
-            Exponent::Saddle(_) => {
-                ordered.extend([columns[2 * mode].clone(), columns[2 * mode + 1].clone()]);
-                kinds.push(exponents[mode]);
-            }
-            Exponent::Centre(omega) => {
+        match &modes[mode] {
+            Mode::Elliptic { frequency, ratio } => {
                 let j = grid.multiples(at)[0];
                 let turn = |sign: f64| grid.sampled(|phases| Complex::cis(sign * j as f64 * phases[0]));
                 let turned = |column: &[Periodic], by: &Periodic| -> Vec<Periodic> {
@@ -193,11 +206,15 @@ fn continued(
                 };
                 ordered.push(turned(&columns[2 * mode], &turn(1.0)));
                 ordered.push(turned(&columns[2 * mode + 1], &turn(-1.0)));
-                kinds.push(Exponent::Centre(omega + grid.rate(at)));
+                kinds.push(Mode::Elliptic { frequency: frequency + grid.rate(at), ratio: *ratio });
+            }
+            saddle => {
+                ordered.extend([columns[2 * mode].clone(), columns[2 * mode + 1].clone()]);
+                kinds.push(saddle.clone());
             }
         }
     }
-    Ok((ordered, kinds))
+    (ordered, kinds)
 }
 
 /// The mode and the harmonic of each place, from overlaps with mode, place and harmonic. Modes that are left take the places that are left.
@@ -217,8 +234,4 @@ fn assigned(mut overlaps: Vec<(f64, usize, usize, usize)>, count: usize) -> Vec<
         }
     }
     taken.into_iter().flatten().collect()
-}
-
-fn same(one: Exponent, two: Exponent) -> bool {
-    matches!((one, two), (Exponent::Centre(_), Exponent::Centre(_)) | (Exponent::Saddle(_), Exponent::Saddle(_)))
 }

@@ -3,20 +3,16 @@
 use num_complex::Complex;
 use num_traits::Zero;
 
-use super::exponent::Exponent;
 use super::form::DrivenForm;
 use super::row::Periodic;
+use crate::birkhoff::flow::{actions, advanced, complex_point, real_point};
 use crate::birkhoff::map::check;
 use crate::error::Error;
-use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
 
 /// Most steps to normal coordinates, and the smallest factor by which a step that counts comes nearer.
 const STEPS: usize = 80;
 const SLOWEST: f64 = 0.9;
-
-/// The terms of a polynomial at one time.
-type Terms = Vec<(Monomial, Complex<f64>)>;
 
 /// The functions of a form at one time.
 #[derive(Clone, Debug)]
@@ -25,7 +21,7 @@ pub struct FormAtPhases<'a> {
     origin: Vec<f64>,
     change: Vec<Vec<Complex<f64>>>,
     inverse: Vec<Vec<Complex<f64>>>,
-    images: Vec<(usize, Terms)>,
+    images: Vec<(usize, Polynomial<Complex<f64>>)>,
 }
 
 impl FormAtPhases<'_> {
@@ -35,14 +31,14 @@ impl FormAtPhases<'_> {
     /// - another number of variables: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`].
     pub fn from_normal(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
         check("state", normal, self.origin.len())?;
-        let exponents = &self.form.motion.exponents;
-        let point = complex_point(exponents, normal);
+        let modes = &self.form.motion.modes;
+        let point = complex_point(modes, normal);
         let mut values = vec![Complex::zero(); normal.len()];
         for (slot, image) in &self.images {
-            values[*slot] = evaluated(image, &point);
+            values[*slot] = image.evaluate(&point)?;
         }
-        for (mode, exponent) in exponents.iter().enumerate() {
-            if let Exponent::Centre(_) = exponent {
+        for mode in 0..modes.len() {
+            if modes[mode].is_elliptic() {
                 values[2 * mode] = values[2 * mode + 1].conj() * Complex::new(0.0, 0.5);
             }
         }
@@ -60,11 +56,11 @@ impl FormAtPhases<'_> {
     /// - another number of variables: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`].
     pub fn to_normal(&self, state: &[f64]) -> Result<Vec<f64>, Error> {
         check("state", state, self.origin.len())?;
-        let exponents = &self.form.motion.exponents;
+        let modes = &self.form.motion.modes;
         let linear = |state: &[f64]| -> Vec<f64> {
             let moved: Vec<f64> = state.iter().zip(&self.origin).map(|(x, origin)| x - origin).collect();
             let row = |row: &Vec<Complex<f64>>| row.iter().zip(&moved).map(|(a, x)| a * x).sum::<Complex<f64>>();
-            real_point(exponents, &self.inverse.iter().map(row).collect::<Vec<_>>())
+            real_point(modes, &self.inverse.iter().map(row).collect::<Vec<_>>())
         };
         let wanted = linear(state);
         let (mut normal, mut best, mut least) = (wanted.clone(), wanted.clone(), f64::INFINITY);
@@ -93,24 +89,19 @@ impl DrivenForm {
         let weights = self.grid().weights(phases);
         let number = |c: &Periodic| c.weighted(&weights);
         let [change, inverse] = self.frame(phases);
-        let list = |image: &Polynomial<Periodic>| image.terms().map(|(monomial, c)| (monomial, number(c))).collect();
         FormAtPhases {
             form: self,
             origin: self.motion.origin.iter().map(|x| number(x).re).collect(),
             inverse,
             change,
-            images: self.images.iter().map(|(slot, image)| (*slot, list(image))).collect(),
+            images: self.images.iter().map(|(slot, image)| (*slot, image.map(number))).collect(),
         }
     }
 
     /// The actions of real normal variables.
     #[must_use]
     pub fn actions_of(&self, normal: &[f64]) -> Vec<f64> {
-        let action = |(pair, exponent): (&[f64], &Exponent)| match exponent {
-            Exponent::Centre(_) => (pair[0] * pair[0] + pair[1] * pair[1]) / 2.0,
-            Exponent::Saddle(_) => pair[0] * pair[1],
-        };
-        normal.chunks(2).zip(&self.motion.exponents).map(action).collect()
+        actions(&self.motion.modes, normal)
     }
 
     /// The proper angles φ of real normal variables: U = √(2I) e^{iφ}.
@@ -122,58 +113,6 @@ impl DrivenForm {
     /// Real normal variables after a time, at constant rates.
     #[must_use]
     pub fn advanced(&self, normal: &[f64], rates: &[f64], time: f64) -> Vec<f64> {
-        let mut moved = normal.to_vec();
-        for (mode, exponent) in self.motion.exponents.iter().enumerate() {
-            let (q, p) = (normal[2 * mode], normal[2 * mode + 1]);
-            let pair = match exponent {
-                Exponent::Centre(_) => {
-                    let turned = Complex::new(p, q) * Complex::cis(rates[mode] * time);
-                    [turned.im, turned.re]
-                }
-                Exponent::Saddle(_) => {
-                    let growth = (rates[mode] * time).exp();
-                    [q * growth, p / growth]
-                }
-            };
-            moved[2 * mode..][..2].copy_from_slice(&pair);
-        }
-        moved
+        advanced(&self.motion.modes, normal, rates, time)
     }
-}
-
-fn complex_point(exponents: &[Exponent], normal: &[f64]) -> Vec<Complex<f64>> {
-    let pair = |(pair, exponent): (&[f64], &Exponent)| match exponent {
-        Exponent::Centre(_) => [Complex::new(pair[0], pair[1]) / 2.0, Complex::new(pair[1], pair[0])],
-        Exponent::Saddle(_) => [pair[0].into(), pair[1].into()],
-    };
-    normal.chunks(2).zip(exponents).flat_map(pair).collect()
-}
-
-fn real_point(exponents: &[Exponent], values: &[Complex<f64>]) -> Vec<f64> {
-    let pair = |(pair, exponent): (&[Complex<f64>], &Exponent)| match exponent {
-        Exponent::Centre(_) => [pair[1].im, pair[1].re],
-        Exponent::Saddle(_) => [pair[0].re, pair[1].re],
-    };
-    values.chunks(2).zip(exponents).flat_map(pair).collect()
-}
-
-/// The value of a polynomial at a point.
-fn evaluated(terms: &[(Monomial, Complex<f64>)], point: &[Complex<f64>]) -> Complex<f64> {
-    let mut powers: Vec<Vec<Complex<f64>>> = point.iter().map(|&x| vec![Complex::new(1.0, 0.0), x]).collect();
-    let mut sum = Complex::zero();
-    for &(monomial, c) in terms {
-        let mut product = c;
-        for (slot, powers) in powers.iter_mut().enumerate() {
-            let exponent = monomial.exponent(slot) as usize;
-            if exponent == 0 {
-                continue;
-            }
-            while powers.len() <= exponent {
-                powers.push(powers[powers.len() - 1] * powers[1]);
-            }
-            product *= powers[exponent];
-        }
-        sum += product;
-    }
-    sum
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::birkhoff::{PhaseSpace, normalize};
+use crate::birkhoff::{Mode, PhaseSpace, normalize};
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
@@ -19,7 +19,7 @@ fn form(text: &str, pairs: &[(&str, &str)], rates: &[f64], order: usize) -> Resu
 }
 
 fn omega(form: &DrivenForm) -> f64 {
-    form.exponents()[0].frequency().re
+    form.modes()[0].frequency().re
 }
 
 /// The largest distance of the motion by a form from an integration, over some periods of the phase, which starts at 0.
@@ -145,10 +145,12 @@ fn functions_are_transported_to_the_variables_of_the_states() -> Result<(), Erro
 
 #[test]
 fn a_saddle_has_its_rate_and_its_forced_motion() -> Result<(), Error> {
-    let form = form("(p^2 - x^2)/2 - x*cos(M)", &[("x", "p")], &[2.0], 2)?;
-    let Exponent::Saddle(rate) = form.exponents()[0] else { panic!("{:?}", form.exponents()) };
-    assert!((rate - 1.0).abs() < 1e-14, "{rate}");
-    assert!((form.periodic(&[0.4])[0] + 0.4_f64.cos() / 5.0).abs() < 1e-14);
+    for drive in [2.0, -2.0] {
+        let form = form("(p^2 - x^2)/2 - x*cos(M)", &[("x", "p")], &[drive], 2)?;
+        let Mode::Hyperbolic { rate } = form.modes()[0] else { panic!("{:?}", form.modes()) };
+        assert!((rate - 1.0).abs() < 1e-14, "{rate}");
+        assert!((form.periodic(&[0.4])[0] + 0.4_f64.cos() / 5.0).abs() < 1e-14);
+    }
     Ok(())
 }
 
@@ -171,8 +173,8 @@ fn what_has_no_frame_is_an_error_that_says_why() {
     // The first tongue of Mathieu's equation: negative multipliers over π, positive ones over 2π.
     let unstable = form("(p^2 + x^2)/2 - 0.2*x^2*cos(M)", &pair, &[2.0], 0);
     assert!(matches!(unstable, Err(Error::MultiplierUnsupported { .. })), "{unstable:?}");
-    let saddle = form("(p^2 + x^2)/2 - 0.2*x^2*cos(2*M)", &pair, &[1.0], 0).map(|form| form.exponents().to_vec());
-    assert!(matches!(saddle.as_deref(), Ok([Exponent::Saddle(_)])), "{saddle:?}");
+    let saddle = form("(p^2 + x^2)/2 - 0.2*x^2*cos(2*M)", &pair, &[1.0], 0).map(|form| form.modes().to_vec());
+    assert!(matches!(saddle.as_deref(), Ok([Mode::Hyperbolic { .. }])), "{saddle:?}");
     let resonant = form("(p^2 + x^2)/2 - x*cos(M)", &pair, &[1.0], 0);
     assert!(matches!(resonant, Err(Error::NoPeriodicMotion { .. })), "{resonant:?}");
     let small = form("(p^2 + x^2)/2 + x^3*cos(M)", &pair, &[3.0], 2);

@@ -1,16 +1,16 @@
 //! Functions of the old variables in the new ones and the reverse, and the motion of a state, at given phases.
 
 use num_complex::Complex;
-use num_traits::Zero;
 
-use super::exponent::Exponent;
 use super::form::DrivenForm;
 use super::row::Periodic;
+use crate::birkhoff::Mode;
 use crate::birkhoff::map::check;
+use crate::birkhoff::mode::{complex_in_real, real_in_complex};
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::{Polynomial, Truncation};
-use crate::triangle::Progress;
+use crate::triangle::{LieTransform, Progress};
 
 type Complexes = Polynomial<Complex<f64>>;
 
@@ -31,15 +31,8 @@ impl DrivenForm {
         let highest = self.order() as u32 + 1;
         let f = f.map(|&c| Periodic::real(c)).compose(&replacements, Some(&Truncation::total(highest)))?;
         let weights = self.grid().weights(phases);
-        let mut sum = f.homogeneous_part(0).map(|c| c.weighted(&weights));
-        for degree in 1..=highest {
-            let part = f.homogeneous_part(degree);
-            let transform = self.transform.truncated((highest - degree) as usize);
-            for term in transform.direct_with(&part, progress)? {
-                sum += &term.map(|c| c.weighted(&weights));
-            }
-        }
-        let forms = self.complex_in_real()?;
+        let sum = self.transported(&f, &weights, |transform, part| transform.direct_with(part, progress))?;
+        let forms = complex_in_real(self.modes())?;
         real(&sum, &forms)
     }
 
@@ -54,19 +47,11 @@ impl DrivenForm {
         progress: &mut Progress<'_>,
     ) -> Result<Polynomial<f64>, Error> {
         check("phases", phases, self.grid().phases())?;
-        let forms = self.real_in_complex()?;
+        let forms = real_in_complex(self.modes())?;
         let replacements: Vec<_> = forms.iter().enumerate().collect();
-        let f = f.map(|&c| Complex::from(c)).compose(&replacements, None)?;
+        let f = f.map(|&c| Complex::from(c)).compose(&replacements, None)?.map(|&c| Periodic::Constant(c));
         let weights = self.grid().weights(phases);
-        let highest = self.order() as u32 + 1;
-        let mut sum = f.homogeneous_part(0);
-        for degree in 1..=f.degree().unwrap_or(0).min(highest) {
-            let part = f.homogeneous_part(degree).map(|&c| Periodic::Constant(c));
-            let transform = self.transform.truncated((highest - degree) as usize);
-            for term in transform.inverse_with(&part, progress)? {
-                sum += &term.map(|c| c.weighted(&weights));
-            }
-        }
+        let sum = self.transported(&f, &weights, |transform, part| transform.inverse_with(part, progress))?;
         // w = P⁻¹ (x − x̄)
         let [_, inverse] = self.frame(phases);
         let origin = self.periodic(phases);
@@ -82,6 +67,24 @@ impl DrivenForm {
         real(&sum, &forms)
     }
 
+    /// The sum of the series of the homogeneous parts of f, all to the degree of the order plus 1, at one time.
+    fn transported(
+        &self,
+        f: &Polynomial<Periodic>,
+        weights: &[f64],
+        mut series: impl FnMut(&LieTransform<Periodic>, &Polynomial<Periodic>) -> Result<Vec<Polynomial<Periodic>>, Error>,
+    ) -> Result<Complexes, Error> {
+        let highest = self.order() as u32 + 1;
+        let mut sum = f.homogeneous_part(0).map(|c| c.weighted(weights));
+        for degree in 1..=f.degree().unwrap_or(0).min(highest) {
+            let transform = self.transform.truncated((highest - degree) as usize);
+            for term in series(&transform, &f.homogeneous_part(degree))? {
+                sum += &term.map(|c| c.weighted(weights));
+            }
+        }
+        Ok(sum)
+    }
+
     /// The states q₁, p₁, … at times after that of a state at phases \[rad\], by the motion of the normal form, in which the actions are constant.
     ///
     /// # Errors
@@ -93,7 +96,7 @@ impl DrivenForm {
         let actions = self.actions_of(&normal);
         let (rates, driven) = (self.frequencies(&actions)?, self.grid().rates());
         let later = |time: f64| phases.iter().zip(&driven).map(|(phase, rate)| phase + rate * time).collect::<Vec<_>>();
-        if self.exponents().iter().any(|exponent| matches!(exponent, Exponent::Saddle(_))) {
+        if !self.modes().iter().all(Mode::is_elliptic) {
             let at = |&time: &f64| self.at(&later(time)).from_normal(&self.advanced(&normal, &rates, time));
             return times.iter().map(at).collect();
         }
@@ -111,40 +114,6 @@ impl DrivenForm {
             sums
         };
         Ok(times.iter().map(at).collect())
-    }
-
-    /// u and U as linear forms in the real normal variables.
-    fn complex_in_real(&self) -> Result<Vec<Complexes>, Error> {
-        let (half, i) = (Complex::new(0.5, 0.0), Complex::i());
-        self.forms(|kind| match kind {
-            Exponent::Centre(_) => [[half, half * i], [i, Complex::new(1.0, 0.0)]],
-            Exponent::Saddle(_) => {
-                [[Complex::new(1.0, 0.0), Complex::zero()], [Complex::zero(), Complex::new(1.0, 0.0)]]
-            }
-        })
-    }
-
-    /// The real normal variables as linear forms in u and U.
-    fn real_in_complex(&self) -> Result<Vec<Complexes>, Error> {
-        let (one, half, i) = (Complex::new(1.0, 0.0), Complex::new(0.5, 0.0), Complex::i());
-        self.forms(|kind| match kind {
-            Exponent::Centre(_) => [[one, -half * i], [-i, half]],
-            Exponent::Saddle(_) => [[one, Complex::zero()], [Complex::zero(), one]],
-        })
-    }
-
-    fn forms(&self, rows: impl Fn(Exponent) -> [[Complex<f64>; 2]; 2]) -> Result<Vec<Complexes>, Error> {
-        let mut forms = Vec::new();
-        for (mode, &kind) in self.exponents().iter().enumerate() {
-            for row in rows(kind) {
-                let mut form = Polynomial::zero();
-                for (side, c) in row.iter().enumerate() {
-                    form.add_term(Monomial::ONE.with(2 * mode + side, 1)?, c);
-                }
-                forms.push(form);
-            }
-        }
-        Ok(forms)
     }
 }
 
