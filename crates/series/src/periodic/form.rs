@@ -9,10 +9,13 @@
 //!
 //! The normal form K is a polynomial in the actions, and the direct transformation at fixed actions a Fourier series in the proper angles and the driven phases.
 
+use std::sync::Arc;
+
 use num_complex::Complex;
 
 use super::divisors::{Divisor, divisors, removal};
 use super::grid::Grid;
+use super::images::Images;
 use super::motion::{DrivenHamiltonian, PeriodicMotion};
 use super::row::Periodic;
 use super::start::eigenvalues;
@@ -23,11 +26,11 @@ use crate::bracket::Poisson;
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
-use crate::triangle::{LieTransform, Progress, normalize_by};
+use crate::triangle::{LieTransform, Progress, normalize_backwards};
 
-/// Harmonics to begin with, and the most of one phase; a grid that is too coarse grows by half.
-const FEWEST: usize = 3;
-const MOST: usize = 255;
+/// Harmonics to begin with, and the most of one phase. All are multiples of four: one time more than a multiple of eight suits vector instructions.
+const FEWEST: usize = 4;
+const MOST: usize = 252;
 /// Grids without a solution after which there is none.
 const FAILURES: usize = 4;
 
@@ -45,15 +48,16 @@ pub struct DrivenOptions {
 /// The normal form of a driven Hamiltonian about its periodic motion.
 #[derive(Clone, Debug)]
 pub struct DrivenForm {
-    pub(super) motion: PeriodicMotion,
+    options: DrivenOptions,
+    pub(super) motion: Arc<PeriodicMotion>,
+    /// From the new variables to the old ones.
     pub(super) transform: LieTransform<Periodic>,
     /// K in u and U without the constant.
     hamiltonian: Polynomial<Complex<f64>>,
     /// ∂K/∂I of the modes, in the actions.
     frequencies: Vec<Polynomial<f64>>,
     /// The old U of each mode, a function of the new variables; for saddles u as well.
-    pub(super) images: Vec<(usize, Polynomial<Periodic>)>,
-    divisors: Vec<Divisor>,
+    pub(super) images: Images,
 }
 
 impl DrivenForm {
@@ -62,7 +66,7 @@ impl DrivenForm {
     ///
     /// # Errors
     /// - no periodic motion: [`Error::NoPeriodicMotion`]; no frame: [`Error::MultiplierUnsupported`]; a divisor below the smallest: [`Error::SmallDivisor`];
-    /// - more than 511 times of a phase: [`Error::GridTooFine`]; a callback that returns `Break`: [`Error::Interrupted`].
+    /// - more than 505 times of a phase: [`Error::GridTooFine`]; a callback that returns `Break`: [`Error::Interrupted`].
     pub fn new(
         system: &dyn DrivenHamiltonian,
         rates: &[f64],
@@ -70,12 +74,25 @@ impl DrivenForm {
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
         let motion = settled(system, rates, options.tolerance)?;
-        Self::about(system, motion, options, progress)
+        Self::about(system, Arc::new(motion), options, progress)
+    }
+
+    /// The normal form of another order about the same periodic motion of the same system.
+    ///
+    /// # Errors
+    /// - a divisor below the smallest: [`Error::SmallDivisor`]; a callback that returns `Break`: [`Error::Interrupted`].
+    pub fn to_order(
+        &self,
+        system: &dyn DrivenHamiltonian,
+        order: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Error> {
+        Self::about(system, Arc::clone(&self.motion), DrivenOptions { order, ..self.options }, progress)
     }
 
     fn about(
         system: &dyn DrivenHamiltonian,
-        motion: PeriodicMotion,
+        motion: Arc<PeriodicMotion>,
         options: DrivenOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
@@ -96,7 +113,7 @@ impl DrivenForm {
         let fastest = motion.modes.iter().map(|one| one.frequency().norm()).fold(0.0, f64::max);
         let bound = options.smallest_divisor * fastest;
         let solve = |order: usize, known: &Polynomial<Periodic>| removal(&motion, bound, order, known);
-        let normal = normalize_by(&series, &poisson, options.order, &solve, progress)?;
+        let normal = normalize_backwards(&series, &poisson, options.order, &solve, progress)?;
         let mut hamiltonian = Polynomial::zero();
         for part in &normal.hamiltonian {
             hamiltonian += &part.map(Periodic::mean);
@@ -104,15 +121,10 @@ impl DrivenForm {
         let transform = normal.transform;
         let mut images = Vec::new();
         for slot in motion.modes.iter().enumerate().flat_map(|(mode, kind)| needed(mode, kind)) {
-            let mut image = Polynomial::zero();
-            for part in transform.direct_with(&Polynomial::variable(slot)?, progress)? {
-                image += &part;
-            }
-            images.push((slot, image));
+            images.push((slot, transform.inverse_with(&Polynomial::variable(slot)?, progress)?));
         }
-        let divisors = divisors(&motion, &transform);
         let frequencies = frequencies(&hamiltonian, &motion.modes)?;
-        Ok(Self { motion, transform, hamiltonian, frequencies, images, divisors })
+        Ok(Self { images: Images::new(images, pairs), options, motion, transform, hamiltonian, frequencies })
     }
 
     /// The order.
@@ -135,8 +147,8 @@ impl DrivenForm {
 
     /// The smallest divisors of the generators, the smallest first.
     #[must_use]
-    pub fn divisors(&self) -> &[Divisor] {
-        &self.divisors
+    pub fn divisors(&self) -> Vec<Divisor> {
+        divisors(&self.motion, &self.transform)
     }
 
     /// K in the complex variables u₁, U₁, …; for a centre u U = i I.
@@ -160,7 +172,7 @@ impl DrivenForm {
             polynomial.terms().map(|(_, c)| c.memory() + size_of::<Monomial>()).sum()
         };
         let generators = (1..=self.order()).filter_map(|m| self.transform.scaled_generator(m)).map(of).sum::<usize>();
-        generators + self.images.iter().map(|(_, image)| of(image)).sum::<usize>()
+        generators + self.images.memory()
     }
 
     /// The periodic motion q₁, p₁, … at phases \[rad\].
@@ -185,8 +197,20 @@ impl DrivenForm {
     /// # Errors
     /// - another number of actions: [`Error::CountMismatch`]; a result that is not finite: [`Error::NotFinite`].
     pub fn frequencies(&self, actions: &[f64]) -> Result<Vec<f64>, Error> {
+        self.frequencies_to(self.order(), actions)
+    }
+
+    /// The same by the terms of K to a lower order.
+    ///
+    /// # Errors
+    /// - The errors of [`frequencies`](Self::frequencies).
+    pub fn frequencies_to(&self, order: usize, actions: &[f64]) -> Result<Vec<f64>, Error> {
         check("actions", actions, self.motion.modes.len())?;
-        self.frequencies.iter().map(|frequency| frequency.evaluate(actions)).collect()
+        let of = |frequency: &Polynomial<f64>| {
+            let known = frequency.filter(|monomial, _| 2 * monomial.total_degree() as usize <= order);
+            known.evaluate(actions)
+        };
+        self.frequencies.iter().map(of).collect()
     }
 }
 
@@ -212,7 +236,7 @@ fn settled(system: &dyn DrivenHamiltonian, rates: &[f64], tolerance: f64) -> Res
         }
         known = found.ok();
         for (half, _) in halves.iter_mut().zip(coarse).filter(|(_, coarse)| *coarse) {
-            *half = (*half + *half / 2 + 1).min(MOST);
+            *half = ((*half + *half / 4 + 3) / 4 * 4).min(MOST);
         }
     }
 }

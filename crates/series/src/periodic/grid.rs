@@ -21,7 +21,7 @@ struct Axis {
     /// The rate of the phase [rad per unit of time].
     rate: f64,
     count: usize,
-    /// cos and sin of 2π i j/N: row i, column j.
+    /// cos and sin of 2π k j/N, k and j from 1 to (N − 1)/2: row k, column j.
     cosines: Vec<f64>,
     sines: Vec<f64>,
 }
@@ -29,7 +29,8 @@ struct Axis {
 impl Axis {
     fn new(rate: f64, half: usize) -> Self {
         let count = 2 * half + 1;
-        let turns = (0..count * count).map(|at| ((at / count) * (at % count) % count) as f64 / count as f64);
+        let products = (1..=half).flat_map(|k| (1..=half).map(move |j| k * j));
+        let turns = products.map(|product| (product % count) as f64 / count as f64);
         let (sines, cosines) = turns.map(|turn| (TAU * turn).sin_cos()).unzip();
         Self { rate, count, cosines, sines }
     }
@@ -37,6 +38,73 @@ impl Axis {
     /// The harmonic at a place of the transform.
     fn multiple(&self, place: usize) -> i64 {
         if 2 * place < self.count { place as i64 } else { place as i64 - self.count as i64 }
+    }
+}
+
+/// The transform of one line of values. With e_k = x_k + x_{N−k} and o_k = x_k − x_{N−k} the sums at ±j are x₀ + Σ e_k cos ± i Σ o_k sin.
+struct Line<'a> {
+    axis: &'a Axis,
+    sign: f64,
+    /// The real and the imaginary parts of x₀, of e and of o, and of the two sums.
+    first: [f64; 2],
+    even: [Vec<f64>; 2],
+    odd: [Vec<f64>; 2],
+    cosines: [Vec<f64>; 2],
+    sines: [Vec<f64>; 2],
+}
+
+impl<'a> Line<'a> {
+    fn new(axis: &'a Axis, sign: f64) -> Self {
+        let empty = || [vec![0.0; axis.count / 2], vec![0.0; axis.count / 2]];
+        Self { axis, sign, first: [0.0; 2], even: empty(), odd: empty(), cosines: empty(), sines: empty() }
+    }
+
+    fn transform(&mut self, parts: [&mut [f64]; 2], start: usize, stride: usize) {
+        let (count, half) = (self.axis.count, self.axis.count / 2);
+        for (part, values) in parts.iter().enumerate() {
+            self.first[part] = values[start];
+            for k in 1..=half {
+                let (one, two) = (values[start + k * stride], values[start + (count - k) * stride]);
+                self.even[part][k - 1] = one + two;
+                self.odd[part][k - 1] = one - two;
+            }
+        }
+        pulp::Arch::new().dispatch(&mut *self);
+        for j in 1..=half {
+            let cosines = [self.cosines[0][j - 1], self.cosines[1][j - 1]];
+            // ± i times the sum with sines
+            let turned = [-self.sign * self.sines[1][j - 1], self.sign * self.sines[0][j - 1]];
+            for part in 0..2 {
+                parts[part][start + j * stride] = cosines[part] + turned[part];
+                parts[part][start + (count - j) * stride] = cosines[part] - turned[part];
+            }
+        }
+        for part in 0..2 {
+            parts[part][start] = self.first[part] + self.even[part].iter().sum::<f64>();
+        }
+    }
+}
+
+impl pulp::NullaryFnOnce for &mut Line<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let half = self.axis.count / 2;
+        for part in 0..2 {
+            let (cosines, sines) = (&mut self.cosines[part][..half], &mut self.sines[part][..half]);
+            cosines.fill(self.first[part]);
+            sines.fill(0.0);
+            for k in 0..half {
+                let (even, odd) = (self.even[part][k], self.odd[part][k]);
+                let row = k * half..(k + 1) * half;
+                let (along, across) = (&self.axis.cosines[row.clone()], &self.axis.sines[row]);
+                for j in 0..half {
+                    cosines[j] = even.mul_add(along[j], cosines[j]);
+                    sines[j] = odd.mul_add(across[j], sines[j]);
+                }
+            }
+        }
     }
 }
 
@@ -172,31 +240,13 @@ impl Grid {
     /// Σ_j x_j e^{± 2πi kj/N} along each axis.
     fn transform(&self, row: &mut [f64], sign: f64) {
         let times = self.times();
+        let (re, im) = row.split_at_mut(times);
         let mut stride = times;
         for axis in &self.axes {
-            let count = axis.count;
-            stride /= count;
-            let mut line = vec![[0.0; 2]; count];
-            let (mut re, mut im) = (vec![0.0; count], vec![0.0; count]);
-            for start in (0..times).filter(|index| (index / stride).is_multiple_of(count)) {
-                for (place, value) in line.iter_mut().enumerate() {
-                    *value = [row[start + place * stride], row[times + start + place * stride]];
-                }
-                re.fill(0.0);
-                im.fill(0.0);
-                for (place, &[x, y]) in line.iter().enumerate() {
-                    let (cosines, sines) =
-                        (&axis.cosines[place * count..][..count], &axis.sines[place * count..][..count]);
-                    let (xs, ys) = (sign * x, sign * y);
-                    for j in 0..count {
-                        re[j] += x * cosines[j] - ys * sines[j];
-                        im[j] += y * cosines[j] + xs * sines[j];
-                    }
-                }
-                for place in 0..count {
-                    row[start + place * stride] = re[place];
-                    row[times + start + place * stride] = im[place];
-                }
+            stride /= axis.count;
+            let mut line = Line::new(axis, sign);
+            for start in (0..times).filter(|index| (index / stride).is_multiple_of(axis.count)) {
+                line.transform([&mut *re, &mut *im], start, stride);
             }
         }
     }
@@ -224,11 +274,13 @@ impl Grid {
     #[must_use]
     pub fn weights(&self, phases: &[f64]) -> Vec<f64> {
         let along = |(axis, phase): (&Axis, &f64)| -> Vec<f64> {
-            let half = (axis.count / 2) as i32;
+            let count = axis.count as f64;
+            // (1 + 2 Σ cos j x)/N = sin(N x/2)/(N sin(x/2))
             let weight = |place: usize| {
-                let angle = phase - TAU * place as f64 / axis.count as f64;
-                let sum: f64 = (1..=half).map(|j| (f64::from(j) * angle).cos()).sum();
-                (1.0 + 2.0 * sum) / axis.count as f64
+                let angle = phase - TAU * place as f64 / count;
+                let half = (angle - TAU * (angle / TAU).round()) / 2.0;
+                let below = count * half.sin();
+                if below == 0.0 { 1.0 } else { (count * half).sin() / below }
             };
             (0..axis.count).map(weight).collect()
         };

@@ -4,38 +4,69 @@ use num_complex::Complex;
 use num_traits::Zero;
 
 use super::form::DrivenForm;
-use super::row::Periodic;
+use super::images::{ImageTerm, Powers};
 use crate::birkhoff::flow::{actions, advanced, complex_point, real_point};
 use crate::birkhoff::map::check;
 use crate::error::Error;
-use crate::polynomial::Polynomial;
+use crate::monomial::Monomial;
 
 /// Most steps to normal coordinates, and the smallest factor by which a step that counts comes nearer.
 const STEPS: usize = 80;
 const SLOWEST: f64 = 0.9;
 
-/// The functions of a form at one time.
+/// Terms of the transformation below this part of the largest variable do not count.
+const NEGLIGIBLE: f64 = 1e-19;
+/// A state may have variables so many times those of its linear part.
+const MARGIN: f64 = 2.0;
+
+/// The transformation of a form at one time.
 #[derive(Clone, Debug)]
 pub struct FormAtPhases<'a> {
     form: &'a DrivenForm,
+    order: usize,
+    weights: Vec<f64>,
     origin: Vec<f64>,
     change: Vec<Vec<Complex<f64>>>,
     inverse: Vec<Vec<Complex<f64>>>,
-    images: Vec<(usize, Polynomial<Complex<f64>>)>,
 }
 
+/// A term of an old variable at one time.
+type TermAtPhases = (usize, Monomial, Complex<f64>);
+
 impl FormAtPhases<'_> {
+    /// The transformation to a lower order.
+    #[must_use]
+    pub fn truncated(&self, order: usize) -> Self {
+        Self { order: order.min(self.order), ..self.clone() }
+    }
+
     /// The state q₁, p₁, … of real normal variables: U = p + iq of a centre.
     ///
     /// # Errors
-    /// - another number of variables: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`].
+    /// - another number of variables: [`Error::CountMismatch`]; a NaN, or a result that is not finite: [`Error::NotFinite`].
     pub fn from_normal(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
         check("state", normal, self.origin.len())?;
+        self.image(normal, &self.terms(normal, 1.0))
+    }
+
+    /// The terms that count near real normal variables.
+    fn terms(&self, normal: &[f64], margin: f64) -> Vec<TermAtPhases> {
+        let point = complex_point(&self.form.motion.modes, normal);
+        let moduli: Vec<f64> = point.iter().map(|c| margin * c.norm()).collect();
+        let negligible = NEGLIGIBLE * moduli.iter().copied().fold(0.0, f64::max);
+        let moduli = Powers::new(&moduli, self.order + 1);
+        // A bound that is not a number counts.
+        let counts = |term: &&ImageTerm| term.order <= self.order && !(term.bound(&moduli) < negligible);
+        let terms = self.form.images.terms().filter(counts);
+        terms.map(|term| (term.slot, term.monomial, term.coefficient.weighted(&self.weights))).collect()
+    }
+
+    fn image(&self, normal: &[f64], terms: &[TermAtPhases]) -> Result<Vec<f64>, Error> {
         let modes = &self.form.motion.modes;
-        let point = complex_point(modes, normal);
+        let powers = Powers::new(&complex_point(modes, normal), self.order + 1);
         let mut values = vec![Complex::zero(); normal.len()];
-        for (slot, image) in &self.images {
-            values[*slot] = image.evaluate(&point)?;
+        for &(slot, monomial, c) in terms {
+            values[slot] += c * powers.of(monomial);
         }
         for mode in 0..modes.len() {
             if modes[mode].is_elliptic() {
@@ -47,7 +78,11 @@ impl FormAtPhases<'_> {
             .iter()
             .zip(&self.change)
             .map(|(x, row)| x + row.iter().zip(&values).map(|(a, b)| a * b).sum::<Complex<f64>>().re);
-        Ok(state.collect())
+        let state: Vec<f64> = state.collect();
+        match state.iter().find(|x| !x.is_finite()) {
+            Some(value) => Err(Error::NotFinite { what: "state", term: value.to_string() }),
+            None => Ok(state),
+        }
     }
 
     /// The real normal variables of a state, whose image is the state to rounding, by iteration; those of the best step beyond the range of the series.
@@ -64,8 +99,9 @@ impl FormAtPhases<'_> {
         };
         let wanted = linear(state);
         let (mut normal, mut best, mut least) = (wanted.clone(), wanted.clone(), f64::INFINITY);
+        let terms = self.terms(&wanted, MARGIN);
         for _ in 0..STEPS {
-            let image = self.from_normal(&normal)?;
+            let image = self.image(&normal, &terms)?;
             let miss = image.iter().zip(state).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
             // Rounding ends the iteration, or the range.
             if miss.is_nan() || miss >= least * SLOWEST {
@@ -83,19 +119,13 @@ impl FormAtPhases<'_> {
 }
 
 impl DrivenForm {
-    /// This form at phases: all its functions as numbers.
+    /// The transformation of this form at phases.
     #[must_use]
     pub fn at(&self, phases: &[f64]) -> FormAtPhases<'_> {
         let weights = self.grid().weights(phases);
-        let number = |c: &Periodic| c.weighted(&weights);
         let [change, inverse] = self.frame(phases);
-        FormAtPhases {
-            form: self,
-            origin: self.motion.origin.iter().map(|x| number(x).re).collect(),
-            inverse,
-            change,
-            images: self.images.iter().map(|(slot, image)| (*slot, image.map(number))).collect(),
-        }
+        let origin = self.motion.origin.iter().map(|x| x.weighted(&weights).re).collect();
+        FormAtPhases { form: self, order: self.order(), weights, origin, change, inverse }
     }
 
     /// The actions of real normal variables.

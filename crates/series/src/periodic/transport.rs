@@ -31,7 +31,7 @@ impl DrivenForm {
         let highest = self.order() as u32 + 1;
         let f = f.map(|&c| Periodic::real(c)).compose(&replacements, Some(&Truncation::total(highest)))?;
         let weights = self.grid().weights(phases);
-        let sum = self.transported(&f, &weights, |transform, part| transform.direct_with(part, progress))?;
+        let sum = self.transported(&f, &weights, |transform, part| transform.inverse_with(part, progress))?;
         let forms = complex_in_real(self.modes())?;
         real(&sum, &forms)
     }
@@ -51,7 +51,7 @@ impl DrivenForm {
         let replacements: Vec<_> = forms.iter().enumerate().collect();
         let f = f.map(|&c| Complex::from(c)).compose(&replacements, None)?.map(|&c| Periodic::Constant(c));
         let weights = self.grid().weights(phases);
-        let sum = self.transported(&f, &weights, |transform, part| transform.inverse_with(part, progress))?;
+        let sum = self.transported(&f, &weights, |transform, part| transform.direct_with(part, progress))?;
         // w = P⁻¹ (x − x̄)
         let [_, inverse] = self.frame(phases);
         let origin = self.periodic(phases);
@@ -100,7 +100,7 @@ impl DrivenForm {
             let at = |&time: &f64| self.at(&later(time)).from_normal(&self.advanced(&normal, &rates, time));
             return times.iter().map(at).collect();
         }
-        let harmonics = self.fourier(&actions, 0.0)?;
+        let harmonics = self.fourier(&actions, 0.0)?.harmonics;
         let angles = self.angles_of(&normal);
         let at = |&time: &f64| {
             let mut sums = vec![0.0; state.len()];
