@@ -43,7 +43,7 @@ impl FourierMotion {
             angles: three(&form.angles_of(&normal)),
             start: lock.start,
             rates: [1.0, lock.shape.precession.phase_rate],
-            harmonics: harmonics(form.fourier(&actions, least)?.harmonics, lock),
+            harmonics: harmonics(form.fourier(&actions, least)?, lock),
             missed,
         })
     }

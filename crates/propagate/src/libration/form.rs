@@ -17,7 +17,7 @@ const SMALLEST_DIVISOR: f64 = 1e-9;
 /// The last harmonics of the periodic motion and of its frame are at most this fraction of the tolerance, and not below the second number, which rounding reaches.
 const TAIL: [f64; 2] = [1e-4, 1e-13];
 
-/// The normal form of a shape for a tolerance \[rad\], kept for the next scene.
+/// The normal form of a shape for a tolerance \[rad\], kept for the next scene. `known` is one of another order for the same shape and tolerance: the periodic motion is the same.
 ///
 /// # Errors
 /// Those of [`DrivenForm::new`]; [`Error::Interrupted`] when the flag is set.
@@ -25,6 +25,7 @@ pub(super) fn form(
     shape: &LockedShape,
     order: usize,
     tolerance: f64,
+    known: Option<&DrivenForm>,
     stop: &AtomicBool,
 ) -> Result<Arc<DrivenForm>, Error> {
     // A power of two, so that similar tolerances share a form.
@@ -42,7 +43,10 @@ pub(super) fn form(
     };
     let options = DrivenOptions { order, tolerance: tail.exp2(), smallest_divisor: SMALLEST_DIVISOR };
     KeptForms::shared().of(key, || {
-        let form = DrivenForm::new(shape, &shape.rates(), options, &mut going)?;
+        let form = match known {
+            Some(known) => known.to_order(shape, order, &mut going)?,
+            None => DrivenForm::new(shape, &shape.rates(), options, &mut going)?,
+        };
         let growth = |mode: &Mode<f64>| match mode {
             Mode::Hyperbolic { rate } => Some([(TAU * rate.abs()).exp(), 0.0]),
             _ => None,

@@ -87,7 +87,8 @@ pub(crate) fn solved(lock: Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<R
     let highest = wanted.order.unwrap_or(HIGHEST[lock.shape.rates().len()]);
     let (mut rungs, mut best): (Vec<Rung>, Option<Libration>) = (Vec::new(), None);
     for order in (highest % 2..=highest).step_by(2) {
-        let made = form(&lock.shape, order, wanted.tolerance, stop)
+        let known = rungs.last().map(|rung| &*rung.form);
+        let made = form(&lock.shape, order, wanted.tolerance, known, stop)
             .and_then(|form| Ok((FourierMotion::new(&form, &lock, NEGLIGIBLE * wanted.tolerance)?, form)));
         let (mut course, form) = match made {
             Err(SeriesError::Interrupted { .. }) => return Err(Error::Stopped),

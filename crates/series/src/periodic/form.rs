@@ -1,7 +1,7 @@
 //! The normal form about a periodic motion, and its evaluation.
 //!
-//! H is expanded about x̄(M) in the variables u, U of Floquet's frame; a coefficient is a periodic function. The terms are graded by degree alone, and Deprit's triangle is
-//! that of every normal form: only the solution of the homological equation knows the grid. A term h(M) u^a U^b with the harmonics h_j has
+//! H is expanded about x̄(M) in the variables u, U of Floquet's frame; a coefficient is a periodic function. The terms are graded by degree alone, and the brackets are
+//! those of every coefficient: only the solution of the homological equation knows the grid. A term h(M) u^a U^b with the harmonics h_j has
 //!
 //! ```text
 //! S_j = h_j / (i ((b − a)·ω + j·n)),    kept: b = a and j = 0
@@ -121,10 +121,14 @@ impl DrivenForm {
         let transform = normal.transform;
         let mut images = Vec::new();
         for slot in motion.modes.iter().enumerate().flat_map(|(mode, kind)| needed(mode, kind)) {
-            images.push((slot, transform.inverse_with(&Polynomial::variable(slot)?, progress)?));
+            let mut image = Polynomial::zero();
+            for part in transform.inverse_with(&Polynomial::variable(slot)?, progress)? {
+                image += &part;
+            }
+            images.push((slot, image));
         }
         let frequencies = frequencies(&hamiltonian, &motion.modes)?;
-        Ok(Self { images: Images::new(images, pairs), options, motion, transform, hamiltonian, frequencies })
+        Ok(Self { images: Images::new(&images, pairs), options, motion, transform, hamiltonian, frequencies })
     }
 
     /// The order.
@@ -197,20 +201,8 @@ impl DrivenForm {
     /// # Errors
     /// - another number of actions: [`Error::CountMismatch`]; a result that is not finite: [`Error::NotFinite`].
     pub fn frequencies(&self, actions: &[f64]) -> Result<Vec<f64>, Error> {
-        self.frequencies_to(self.order(), actions)
-    }
-
-    /// The same by the terms of K to a lower order.
-    ///
-    /// # Errors
-    /// - The errors of [`frequencies`](Self::frequencies).
-    pub fn frequencies_to(&self, order: usize, actions: &[f64]) -> Result<Vec<f64>, Error> {
         check("actions", actions, self.motion.modes.len())?;
-        let of = |frequency: &Polynomial<f64>| {
-            let known = frequency.filter(|monomial, _| 2 * monomial.total_degree() as usize <= order);
-            known.evaluate(actions)
-        };
-        self.frequencies.iter().map(of).collect()
+        self.frequencies.iter().map(|frequency| frequency.evaluate(actions)).collect()
     }
 }
 
@@ -236,7 +228,7 @@ fn settled(system: &dyn DrivenHamiltonian, rates: &[f64], tolerance: f64) -> Res
         }
         known = found.ok();
         for (half, _) in halves.iter_mut().zip(coarse).filter(|(_, coarse)| *coarse) {
-            *half = ((*half + *half / 4 + 3) / 4 * 4).min(MOST);
+            *half = (*half + *half / 4).next_multiple_of(4).min(MOST);
         }
     }
 }

@@ -4,7 +4,7 @@ use num_complex::Complex;
 use num_traits::Zero;
 
 use super::form::DrivenForm;
-use super::images::{ImageGroup, ImageTerm, Powers, at_angles_0};
+use super::images::{ImageGroup, ImageTerm};
 use super::row::{Periodic, product};
 use crate::error::Error;
 
@@ -17,66 +17,52 @@ pub struct Harmonic {
     pub amplitudes: Vec<Complex<f64>>,
 }
 
-/// A motion at fixed actions.
-#[derive(Clone, Debug)]
-pub struct FourierSeries {
-    /// The harmonics.
-    pub harmonics: Vec<Harmonic>,
-    /// By order 0, 1, … of the form, a bound of what its terms add to q₁, p₁, q₂, p₂, …
-    pub orders: Vec<Vec<f64>>,
-}
-
 impl DrivenForm {
     /// The state as a Fourier series in the proper angles and the driven phases, at fixed actions of centres. Harmonics whose amplitudes are all at most `least` are left out.
     ///
     /// # Errors
     /// - the errors of [`frequencies`](Self::frequencies); a mode that is no centre: [`Error::CountMismatch`].
-    pub fn fourier(&self, actions: &[f64], least: f64) -> Result<FourierSeries, Error> {
+    pub fn fourier(&self, actions: &[f64], least: f64) -> Result<Vec<Harmonic>, Error> {
         self.frequencies(actions)?;
         self.centres()?;
-        let variables = self.motion.origin.len();
-        let point = at_angles_0(actions);
-        let moduli = Powers::new(&point.iter().map(|c| c.norm()).collect::<Vec<_>>(), self.order() + 1);
-        let turned = Powers::new(&point, self.order() + 1);
-        let seen: Vec<Vec<f64>> =
-            (0..variables).map(|slot| self.motion.change.iter().map(|row| 2.0 * row[slot].size()).collect()).collect();
-        let largest = seen.iter().flatten().copied().fold(0.0, f64::max);
-        // All terms that are left out add less than `least`.
+        // u = (i/2) √(2I) e^{−iφ}, U = √(2I) e^{iφ}
+        let moduli: Vec<f64> =
+            actions.iter().map(|action| (2.0 * action).sqrt()).flat_map(|size| [size / 2.0, size]).collect();
+        let largest = 2.0 * self.motion.change.iter().flatten().map(Periodic::size).fold(0.0, f64::max);
+        // All terms that are left out add at most `least`.
         let negligible = least / (largest * self.images.terms().count() as f64);
-        let mut orders = vec![vec![0.0; variables]; self.order() + 1];
         let mut harmonics = Vec::new();
-        let mut still = self.motion.origin.clone();
         for group in &self.images.0 {
             let (mut sum, mut kept) = (0.0, Vec::new());
             for term in &group.terms {
-                let bound = term.bound(&moduli);
+                let modulus = term.modulus(&moduli);
+                let bound = term.size * modulus;
                 sum += bound;
-                orders[term.order].iter_mut().zip(&seen[term.slot]).for_each(|(all, seen)| *all += bound * seen);
                 if bound > negligible {
-                    kept.push((turned.of(term.monomial), term));
+                    kept.push((modulus, term));
                 }
             }
-            let unturned = group.multiples.iter().all(|&k| k == 0);
-            if unturned || sum * largest > least {
+            let still = group.multiples.iter().all(|&k| k == 0);
+            if still || sum * largest > least {
                 let mut functions = self.functions(&kept);
-                if unturned {
-                    still.iter_mut().zip(&functions).for_each(|(still, function)| *still += function);
-                    functions.clone_from(&still);
+                if still {
+                    functions.iter_mut().zip(&self.motion.origin).for_each(|(function, x)| *function += x);
                 }
                 self.add_harmonics(group, &functions, least, &mut harmonics);
             }
         }
-        Ok(FourierSeries { harmonics, orders })
+        Ok(harmonics)
     }
 
-    /// The functions before e^{ik·φ} of the variables, of terms with their values at the angles 0. The part with −k is Re(f e^{−ik·φ}) = Re(f̄ e^{ik·φ}).
-    fn functions(&self, terms: &[(Complex<f64>, &ImageTerm)]) -> Vec<Periodic> {
+    /// The functions before e^{ik·φ} of the variables, of terms with the moduli of their powers. The part with −k is Re(f e^{−ik·φ}) = Re(f̄ e^{ik·φ}).
+    fn functions(&self, terms: &[(f64, &ImageTerm)]) -> Vec<Periodic> {
         let variables = self.motion.origin.len();
         let mut functions = vec![Periodic::zero(); variables];
         for opposite in [false, true] {
             let mut by_slot: Vec<Vec<(Complex<f64>, &Periodic)>> = vec![Vec::new(); variables];
-            for (value, term) in terms.iter().filter(|(_, term)| term.opposite == opposite) {
-                by_slot[term.slot].push((2.0 * value, &term.coefficient));
+            for (modulus, term) in terms.iter().filter(|(_, term)| term.opposite == opposite) {
+                let turns: u32 = (0..variables).step_by(2).map(|slot| term.monomial.exponent(slot)).sum();
+                by_slot[term.slot].push((2.0 * modulus * Complex::i().powu(turns), &term.coefficient));
             }
             let used: Vec<usize> = (0..variables).filter(|&slot| !by_slot[slot].is_empty()).collect();
             if used.is_empty() {

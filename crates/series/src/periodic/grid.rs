@@ -79,8 +79,8 @@ impl<'a> Line<'a> {
                 parts[part][start + (count - j) * stride] = cosines[part] - turned[part];
             }
         }
-        for part in 0..2 {
-            parts[part][start] = self.first[part] + self.even[part].iter().sum::<f64>();
+        for ((values, first), even) in parts.into_iter().zip(self.first).zip(&self.even) {
+            values[start] = first + even.iter().sum::<f64>();
         }
     }
 }

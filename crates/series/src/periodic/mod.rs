@@ -1,8 +1,9 @@
 //! Normal forms of Hamiltonians with driven phases, about their periodic motion.
 //!
 //! `row` is a coefficient that is a periodic function, held at the times of a `grid`. `motion` finds the periodic motion, `frame` Floquet's frame about it, from a `start` by the
-//! matrix of `monodromy`. `form` expands the Hamiltonian there and normalizes it with the `divisors`; `images` are the old variables in the new ones. `state` transforms states, `fourier` gives the motion
-//! at fixed actions, `transport` expresses functions. `polynomial` is a Hamiltonian that is a polynomial; other functions implement [`DrivenHamiltonian`].
+//! matrix of `monodromy`. `form` expands the Hamiltonian there and normalizes it with the `divisors`; `images` are the old variables in the new ones. `state` transforms states,
+//! `fourier` gives the motion at fixed actions, `transport` expresses functions. `polynomial` is a Hamiltonian that is a polynomial; other functions implement
+//! [`DrivenHamiltonian`].
 
 mod divisors;
 mod form;
@@ -21,7 +22,7 @@ mod transport;
 
 pub use divisors::Divisor;
 pub use form::{DrivenForm, DrivenOptions};
-pub use fourier::{FourierSeries, Harmonic};
+pub use fourier::Harmonic;
 pub use grid::Grid;
 pub use motion::{DrivenHamiltonian, PeriodicMotion};
 pub use polynomial::{SampledHamiltonian, terms_at};

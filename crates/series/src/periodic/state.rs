@@ -1,14 +1,15 @@
 //! States in the normal form: normal variables at given phases, actions and angles.
 
+use std::cmp::Ordering;
+
 use num_complex::Complex;
 use num_traits::Zero;
 
 use super::form::DrivenForm;
-use super::images::{ImageTerm, Powers};
 use crate::birkhoff::flow::{actions, advanced, complex_point, real_point};
 use crate::birkhoff::map::check;
 use crate::error::Error;
-use crate::monomial::Monomial;
+use crate::polynomial::Polynomial;
 
 /// Most steps to normal coordinates, and the smallest factor by which a step that counts comes nearer.
 const STEPS: usize = 80;
@@ -16,57 +17,52 @@ const SLOWEST: f64 = 0.9;
 
 /// Terms of the transformation below this part of the largest variable do not count.
 const NEGLIGIBLE: f64 = 1e-19;
-/// A state may have variables so many times those of its linear part.
+/// A state may have variables so many times the largest of its linear part.
 const MARGIN: f64 = 2.0;
 
 /// The transformation of a form at one time.
 #[derive(Clone, Debug)]
 pub struct FormAtPhases<'a> {
     form: &'a DrivenForm,
-    order: usize,
     weights: Vec<f64>,
     origin: Vec<f64>,
     change: Vec<Vec<Complex<f64>>>,
     inverse: Vec<Vec<Complex<f64>>>,
 }
 
-/// A term of an old variable at one time.
-type TermAtPhases = (usize, Monomial, Complex<f64>);
+/// Old variables by their slots, at one time.
+type ImagesAtPhases = Vec<(usize, Polynomial<Complex<f64>>)>;
 
 impl FormAtPhases<'_> {
-    /// The transformation to a lower order.
-    #[must_use]
-    pub fn truncated(&self, order: usize) -> Self {
-        Self { order: order.min(self.order), ..self.clone() }
-    }
-
     /// The state q₁, p₁, … of real normal variables: U = p + iq of a centre.
     ///
     /// # Errors
-    /// - another number of variables: [`Error::CountMismatch`]; a NaN, or a result that is not finite: [`Error::NotFinite`].
+    /// - another number of variables: [`Error::CountMismatch`]; a NaN, or a state that is not finite: [`Error::NotFinite`].
     pub fn from_normal(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
         check("state", normal, self.origin.len())?;
-        self.image(normal, &self.terms(normal, 1.0))
+        let moduli: Vec<f64> = complex_point(&self.form.motion.modes, normal).iter().map(|c| c.norm()).collect();
+        self.image(normal, &self.images(&moduli))
     }
 
-    /// The terms that count near real normal variables.
-    fn terms(&self, normal: &[f64], margin: f64) -> Vec<TermAtPhases> {
-        let point = complex_point(&self.form.motion.modes, normal);
-        let moduli: Vec<f64> = point.iter().map(|c| margin * c.norm()).collect();
+    /// The terms that count where the complex variables have these moduli.
+    fn images(&self, moduli: &[f64]) -> ImagesAtPhases {
         let negligible = NEGLIGIBLE * moduli.iter().copied().fold(0.0, f64::max);
-        let moduli = Powers::new(&moduli, self.order + 1);
-        // A bound that is not a number counts.
-        let counts = |term: &&ImageTerm| term.order <= self.order && !(term.bound(&moduli) < negligible);
-        let terms = self.form.images.terms().filter(counts);
-        terms.map(|term| (term.slot, term.monomial, term.coefficient.weighted(&self.weights))).collect()
+        let mut terms = vec![Vec::new(); moduli.len()];
+        for term in self.form.images.terms() {
+            // A bound that is not a number counts.
+            if (term.size * term.modulus(moduli)).partial_cmp(&negligible) != Some(Ordering::Less) {
+                terms[term.slot].push((term.monomial, term.coefficient.weighted(&self.weights)));
+            }
+        }
+        terms.into_iter().map(Polynomial::from_terms).enumerate().filter(|(_, image)| !image.is_zero()).collect()
     }
 
-    fn image(&self, normal: &[f64], terms: &[TermAtPhases]) -> Result<Vec<f64>, Error> {
+    fn image(&self, normal: &[f64], images: &ImagesAtPhases) -> Result<Vec<f64>, Error> {
         let modes = &self.form.motion.modes;
-        let powers = Powers::new(&complex_point(modes, normal), self.order + 1);
+        let point = complex_point(modes, normal);
         let mut values = vec![Complex::zero(); normal.len()];
-        for &(slot, monomial, c) in terms {
-            values[slot] += c * powers.of(monomial);
+        for (slot, image) in images {
+            values[*slot] = image.evaluate(&point)?;
         }
         for mode in 0..modes.len() {
             if modes[mode].is_elliptic() {
@@ -99,9 +95,12 @@ impl FormAtPhases<'_> {
         };
         let wanted = linear(state);
         let (mut normal, mut best, mut least) = (wanted.clone(), wanted.clone(), f64::INFINITY);
-        let terms = self.terms(&wanted, MARGIN);
+        // A variable that is 0 in the linear part is not 0 in the state.
+        let point = complex_point(modes, &wanted);
+        let largest = MARGIN * point.iter().map(|c| c.norm()).fold(0.0, f64::max);
+        let images = self.images(&vec![largest; point.len()]);
         for _ in 0..STEPS {
-            let image = self.image(&normal, &terms)?;
+            let image = self.image(&normal, &images)?;
             let miss = image.iter().zip(state).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
             // Rounding ends the iteration, or the range.
             if miss.is_nan() || miss >= least * SLOWEST {
@@ -125,7 +124,7 @@ impl DrivenForm {
         let weights = self.grid().weights(phases);
         let [change, inverse] = self.frame(phases);
         let origin = self.motion.origin.iter().map(|x| x.weighted(&weights).re).collect();
-        FormAtPhases { form: self, order: self.order(), weights, origin, change, inverse }
+        FormAtPhases { form: self, weights, origin, change, inverse }
     }
 
     /// The actions of real normal variables.

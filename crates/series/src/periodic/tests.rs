@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
 use crate::triangle::quiet;
+use num_complex::Complex;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 fn options(order: usize) -> DrivenOptions {
@@ -140,6 +141,50 @@ fn functions_are_transported_to_the_variables_of_the_states() -> Result<(), Erro
     let rates = form.frequencies(&form.actions_of(&normal))?;
     let other = later.from_normal(&form.advanced(&normal, &rates, 2.0))?;
     assert!((moved[0][0] - state[0]).abs() < 1e-14 && (moved[1][1] - other[1]).abs() < 1e-13, "{moved:?} {other:?}");
+    Ok(())
+}
+
+#[test]
+fn the_fourier_series_of_a_linear_oscillator_has_its_forced_motion() -> Result<(), Error> {
+    let form = form("(p^2 + 4*x^2)/2 - x*cos(M)", &[("x", "p")], &[1.0], 0)?;
+    let forced = form.fourier(&[0.0], 1e-13)?;
+    let [harmonic] = &forced[..] else { panic!("{forced:?}") };
+    assert_eq!(harmonic.multiples, [0, 1]);
+    // x = cos(M)/3, p = −sin(M)/3
+    let third = Complex::from(1.0 / 3.0);
+    assert!((harmonic.amplitudes[0] - third).norm() < 1e-15, "{harmonic:?}");
+    assert!((harmonic.amplitudes[1] - third * Complex::i()).norm() < 1e-15, "{harmonic:?}");
+    let free = form.fourier(&[0.08], 1e-13)?;
+    let free = free.iter().find(|harmonic| harmonic.multiples == [1, 0]).map(|harmonic| harmonic.amplitudes[0].norm());
+    // √(2I/ω)
+    assert!(free.is_some_and(|size| (size - 0.08_f64.sqrt()).abs() < 1e-15), "{free:?}");
+    Ok(())
+}
+
+#[test]
+fn a_state_whose_linear_part_leaves_a_mode_at_rest_has_its_normal_variables() -> Result<(), Error> {
+    let pairs = [("q", "p"), ("Q", "P")];
+    let form = form("(p^2 + q^2)/2 + (P^2 + 3*Q^2)/2 + q^2*Q*(1 + 0.1*cos(M))", &pairs, &[0.3], 6)?;
+    let (now, state) = (form.at(&[0.4]), [0.05, 0.0, 0.0, 0.0]);
+    let normal = now.to_normal(&state)?;
+    assert!(normal[3].abs() > 1e-4 && normal[3].abs() < 1e-2, "{normal:?}");
+    for (seen, x) in now.from_normal(&normal)?.iter().zip(state) {
+        assert!((seen - x).abs() < 1e-16, "{seen} {x}");
+    }
+    Ok(())
+}
+
+#[test]
+fn forms_of_other_orders_about_the_same_motion_are_those_made_alone() -> Result<(), Error> {
+    let sampled = SampledHamiltonian::new(1, planar(0.05, 1.0, 0.1, 14));
+    let alone = |order| DrivenForm::new(&sampled, &[1.0], options(order), &mut quiet);
+    let (low, high) = (alone(2)?, alone(6)?);
+    for (order, expected) in [(6, &high), (2, &low)] {
+        for known in [&low, &high] {
+            let form = known.to_order(&sampled, order, &mut quiet)?;
+            assert_eq!((form.order(), form.in_complex()), (order, expected.in_complex()));
+        }
+    }
     Ok(())
 }
 

@@ -100,7 +100,7 @@ impl DrivenForm {
             let at = |&time: &f64| self.at(&later(time)).from_normal(&self.advanced(&normal, &rates, time));
             return times.iter().map(at).collect();
         }
-        let harmonics = self.fourier(&actions, 0.0)?.harmonics;
+        let harmonics = self.fourier(&actions, 0.0)?;
         let angles = self.angles_of(&normal);
         let at = |&time: &f64| {
             let mut sums = vec![0.0; state.len()];
