@@ -105,4 +105,4 @@ def test_bad_input_names_its_argument():
         form.periodic([0.0, 1.0])
     with pytest.raises(andoyer.InputError, match="state"):
         form.trajectory([0.0], [1.0])
-    assert repr(form) == "<DrivenNormalForm of order 2 with M, 7 times>"
+    assert repr(form) == f"<DrivenNormalForm of order 2 with M, {form.times} times>"
