@@ -58,17 +58,13 @@ impl<S: InstructionSet, T: Task> NullaryFnOnce for On<S, T> {
     }
 }
 
-/// Runs a task with the best instruction set available.
+/// Runs a task with the best instruction set available. With debug assertions that is one of at most four lanes, to the same bits: the kernels are most of what is compiled.
 pub(crate) fn dispatch<T: Task>(arch: Arch, task: T) -> T::Output {
-    match arch {
-        #[cfg(target_arch = "x86_64")]
-        Arch::V4(simd) => simd.vectorize(On(simd, task)),
-        #[cfg(target_arch = "x86_64")]
-        Arch::V3(simd) => simd.vectorize(On(simd, task)),
-        #[cfg(target_arch = "aarch64")]
-        Arch::Neon(simd) => simd.vectorize(On(simd, task)),
-        _ => On(pulp::Scalar, task).call(),
+    #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
+    if let Arch::V4(simd) = arch {
+        return simd.vectorize(On(simd, task));
     }
+    dispatch_few(arch, task)
 }
 
 /// Runs a task whose work has rows of eight lanes or fewer. Wide vectors divide and take roots at half the speed, and the bits are the same; the task
