@@ -10,8 +10,8 @@ use crate::gravity_gradient::request::{Ledger, Request};
 use crate::input::options::Level;
 use crate::numerics::scaling::scaled;
 use crate::orbit::elements::Orbit;
-use crate::orbit::hansen::{OrbitSeries, decay};
-use crate::orbit::position::{Path, Position};
+use crate::orbit::hansen::OrbitSeries;
+use crate::orbit::position::{Path, Position, singularity};
 use crate::orbit::span::{Envelope, Reach};
 use crate::simd::lanes::Lanes;
 use crate::torque::strength_for;
@@ -99,7 +99,7 @@ impl<'a> Disturbance<'a> {
 pub(crate) fn series(reach: &Reach) -> Option<OrbitSeries> {
     let fewest = FEWEST_ORBITS[usize::from(reach.eccentricity == 0.0 || reach.passes())];
     // They fall like e^(−|j|(arcosh 1/e − η)), as Hansen's coefficients do.
-    let count = if reach.eccentricity == 0.0 { 2.0 } else { 6.0 + LOG_CUTOFF / decay(reach.eccentricity) };
+    let count = if reach.eccentricity == 0.0 { 2.0 } else { 6.0 + LOG_CUTOFF / singularity(reach.eccentricity) };
     let few = count <= MOST_HARMONICS && reach.longest() >= fewest * TAU;
     few.then(|| OrbitSeries::new(reach.eccentricity, count as usize))
 }

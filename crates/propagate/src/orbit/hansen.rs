@@ -1,8 +1,9 @@
 //! The disturbing body's part of the torque as Fourier series in its mean anomaly l: (a/r)³ times 1, cos 2f and sin 2f (Hansen's coefficients).
 
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 
-use super::position::eta;
+use super::position::{eta, singularity};
 use crate::numerics::C64;
 
 /// The coefficients of e^(ijl), from j = 0 on.
@@ -15,7 +16,7 @@ pub(crate) struct OrbitSeries {
 impl OrbitSeries {
     /// The series of an orbit with so many harmonics on each side of 0.
     pub(crate) fn new(eccentricity: f64, count: usize) -> Self {
-        Self { coefficients: coefficients(eccentricity, count, 0) }
+        Self { coefficients: coefficients(eccentricity, 0..=count, 0) }
     }
 
     /// The coefficients of e^(ijl) in (a/r)³ times 1, cos 2f and sin 2f.
@@ -39,16 +40,8 @@ pub(crate) const LARGEST_NUMBER: usize = 4096;
 pub(crate) fn hansen(eccentricity: f64, number: usize) -> [f64; 3] {
     // Harmonics of (a/r)² in the eccentric anomaly fall like ((1 − η)/e)^k, about e^(−ηk).
     let more = (32.0 / eta(eccentricity)).min(1e6) as usize;
-    let [constant, even, odd] = coefficients(eccentricity, number, more)[number];
+    let [constant, even, odd] = coefficients(eccentricity, number..=number, more)[0];
     [constant, even + odd, even - odd]
-}
-
-/// arcosh 1/e − η: Hansen's coefficients fall like e^(−|j| times this). On a circle it is infinite.
-pub(crate) fn decay(eccentricity: f64) -> f64 {
-    if eccentricity == 0.0 {
-        return f64::INFINITY;
-    }
-    (1.0 / eccentricity).acosh() - eta(eccentricity)
 }
 
 /// An upper estimate of the Fourier coefficient of e^(ijl) in a product of so many factors (a/r)³ e^(±2if) or (a/r)³, over its value at the pericentre.
@@ -61,7 +54,8 @@ pub(crate) fn at_most(eccentricity: f64, number: f64, factors: i32) -> f64 {
         0.0
     } else {
         // At r = 0 one factor is like (l − l₀)^(−5/2), and two are like (l − l₀)^(−5).
-        let fallen = decay(eccentricity) * beyond;
+        // The coefficients fall like e^(−|j| times the distance of the singularity).
+        let fallen = singularity(eccentricity) * beyond;
         let growing = if factors == 1 {
             (1.0 + fallen).powf(1.5)
         } else {
@@ -72,11 +66,11 @@ pub(crate) fn at_most(eccentricity: f64, number: f64, factors: i32) -> f64 {
 }
 
 /// The coefficients of cos jl in (a/r)³ and (a/r)³ cos 2f and of sin jl in (a/r)³ sin 2f, halved but for j = 0.
-fn coefficients(eccentricity: f64, count: usize, more_points: usize) -> Vec<[f64; 3]> {
+fn coefficients(eccentricity: f64, numbers: RangeInclusive<usize>, more_points: usize) -> Vec<[f64; 3]> {
     // An even sum over more points than the integrand has harmonics in the eccentric anomaly is exact.
-    let points = 32 + (1.25 * count as f64) as usize + more_points;
+    let points = 32 + (1.25 * *numbers.end() as f64) as usize + more_points;
     let eta = eta(eccentricity);
-    let mut sums = vec![[0.0; 3]; count + 1];
+    let (mut sums, mut largest) = (vec![[0.0; 3]; numbers.clone().count()], 0.0);
     for k in 0..points {
         // Half the orbit: the other half is its mirror image.
         let anomaly = PI * (k as f64 + 0.5) / points as f64;
@@ -85,16 +79,17 @@ fn coefficients(eccentricity: f64, count: usize, more_points: usize) -> Vec<[f64
         let (x, y) = ((cosine - eccentricity) / distance, eta * sine / distance);
         let weight = 1.0 / (distance * distance * points as f64);
         let [even, odd] = [weight * (x * x - y * y), weight * 2.0 * x * y];
-        let turn = C64::from_polar(1.0, anomaly - eccentricity * sine);
-        let mut wave = C64::new(1.0, 0.0);
+        let mean_anomaly = anomaly - eccentricity * sine;
+        let turn = C64::from_polar(1.0, mean_anomaly);
+        let mut wave = C64::from_polar(1.0, *numbers.start() as f64 * mean_anomaly);
+        largest += weight;
         for sum in &mut sums {
             *sum = [sum[0] + weight * wave.re, sum[1] + even * wave.re, sum[2] + odd * wave.im];
             wave *= turn;
         }
     }
-    // The power j of `turn` has j rounding errors. A smaller coefficient is rounding alone, which a small divisor would enlarge.
-    let largest = sums.iter().flatten().fold(0.0_f64, |most, c| most.max(c.abs()));
-    for (j, sum) in sums.iter_mut().enumerate() {
+    // The power j of `turn` has j rounding errors. A smaller coefficient is rounding alone, which a small divisor would enlarge. None is larger than the mean of (a/r)³.
+    for (j, sum) in numbers.zip(&mut sums) {
         let rounding = (4 + j) as f64 * f64::EPSILON * largest;
         sum.iter_mut().filter(|c| c.abs() < rounding).for_each(|c| *c = 0.0);
     }

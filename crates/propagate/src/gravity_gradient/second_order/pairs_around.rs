@@ -11,8 +11,9 @@ use crate::gravity_gradient::constants::{CUTOFF, MOST_POINTS, SOURCE_CHANGE, SOU
 use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::terms::term::{Term, slow_limit};
 use crate::numerics::C64;
-use crate::orbit::hansen::{at_most, decay};
+use crate::orbit::hansen::at_most;
 use crate::orbit::kepler::Place;
+use crate::orbit::position::singularity;
 use crate::simd::lanes::Lanes;
 use crate::torque::contraction;
 
@@ -119,7 +120,7 @@ impl SecondOrderState<'_> {
 
 /// The highest harmonic that a pair of frequency Ω needs, if they are not too many.
 fn highest(state: &SecondOrderState<'_>, omega: f64) -> Option<f64> {
-    let slow = 6.0 + 4.0 / decay(state.disturbance.orbit.eccentricity());
+    let slow = 6.0 + 4.0 / singularity(state.disturbance.orbit.eccentricity());
     let highest = slow.max((omega / state.disturbance.mean_motion).abs() + 4.0).ceil();
     (points_for(highest) <= MOST_POINTS).then_some(highest)
 }
