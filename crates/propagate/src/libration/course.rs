@@ -21,30 +21,22 @@ pub(crate) struct FourierMotion {
     rates: [f64; 2],
     /// Of ψ, p_ψ − C W₃, θ, p_θ, φ, p_φ; the multiples are those of the proper angles, of M and of α.
     pub(crate) harmonics: Vec<Harmonic>,
-    /// What the state at the epoch misses.
-    pub(crate) missed: f64,
 }
 
 impl FourierMotion {
-    /// The motion of a state by a normal form. The direct transformation of its normal coordinates gives the state at the epoch itself. Harmonics whose amplitudes are all at
-    /// most `least` are left out.
+    /// The motion of the normal variables of a lock at the epoch. Harmonics whose amplitudes are all at most `least` are left out.
     ///
     /// # Errors
     /// Those of the form: a state beyond the range of the series can overflow.
-    pub(crate) fn new(form: &DrivenForm, lock: &Lock, least: f64) -> Result<Self, Error> {
-        let now = form.at(&lock.shape.driven(lock.start));
-        let normal = now.to_normal(&lock.state)?;
-        let seen = now.from_normal(&normal)?;
-        let missed = seen.iter().zip(&lock.state).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-        let actions = form.actions_of(&normal);
+    pub(crate) fn new(form: &DrivenForm, lock: &Lock, normal: &[f64], least: f64) -> Result<Self, Error> {
+        let actions = form.actions_of(normal);
         let three = |values: &[f64]| [values[0], values[1], values[2]];
         Ok(Self {
             frequencies: three(&form.frequencies(&actions)?),
-            angles: three(&form.angles_of(&normal)),
+            angles: three(&form.angles_of(normal)),
             start: lock.start,
             rates: [1.0, lock.shape.precession.phase_rate],
             harmonics: harmonics(form.fourier(&actions, least)?, lock),
-            missed,
         })
     }
 
@@ -64,13 +56,6 @@ impl FourierMotion {
         dropped += beyond.iter().map(size).sum::<f64>();
         self.harmonics.sort_by(|a, b| a.multiples.cmp(&b.multiples));
         dropped
-    }
-
-    /// The largest sum of amplitudes of a variable.
-    pub(crate) fn amplitude(&self) -> f64 {
-        let of =
-            |variable: usize| self.harmonics.iter().map(|harmonic| harmonic.amplitudes[variable].norm()).sum::<f64>();
-        (0..6).map(of).fold(0.0, f64::max)
     }
 
     /// The largest sum of amplitudes of an angle \[rad\].
@@ -111,30 +96,22 @@ impl FourierMotion {
         [0, 1].map(|phase| self.start[phase] + self.rates[phase] * elapsed)
     }
 
-    /// The variables a time after the epoch, in units of 1/n.
-    pub(crate) fn at(&self, elapsed: f64) -> [f64; 6] {
-        self.with_rates(elapsed).0
-    }
-
-    /// The variables and their rates.
-    pub(crate) fn with_rates(&self, elapsed: f64) -> ([f64; 6], [f64; 6]) {
-        let (mut sums, mut rates) = ([0.0; 6], [0.0; 6]);
+    /// The variables and their rates at even times after the epoch, in units of 1/n.
+    pub(crate) fn at_even_times(&self, start: f64, step: f64, count: usize) -> Vec<[[f64; 6]; 2]> {
+        let mut sums = vec![[[0.0; 6]; 2]; count];
         for Harmonic { multiples, amplitudes } in &self.harmonics {
-            let turn = Complex::cis(self.phase(multiples, elapsed));
             let rate = self.rate(multiples);
-            for ((sum, slope), amplitude) in sums.iter_mut().zip(&mut rates).zip(amplitudes) {
-                let term = amplitude * turn;
-                *sum += term.re;
-                *slope -= term.im * rate;
+            let (mut turn, further) = (Complex::cis(self.phase(multiples, start)), Complex::cis(rate * step));
+            for [values, rates] in &mut sums {
+                for ((value, slope), amplitude) in values.iter_mut().zip(rates).zip(amplitudes) {
+                    let term = amplitude * turn;
+                    *value += term.re;
+                    *slope -= term.im * rate;
+                }
+                turn *= further;
             }
         }
-        (sums, rates)
-    }
-
-    /// How far two motions are apart \[rad\]: the sum of the differences of the three angles.
-    pub(crate) fn distance(&self, other: &Self, elapsed: f64) -> f64 {
-        let [one, two] = [self, other].map(|course| course.at(elapsed));
-        [0, 2, 4].map(|angle| (one[angle] - two[angle]).abs()).iter().sum()
+        sums
     }
 }
 

@@ -1,10 +1,11 @@
 //! Rotation locked to an orbit: the normal form about a spin–orbit resonance (docs/theory-locked.md).
 //!
-//! `shape` has the equations, `lock` finds the resonance of a scene and its variables, `energy` is the Hamiltonian, `form` normalizes it about the periodic motion, `course` makes the
-//! Fourier series of one motion, `residual` inserts it into the equations of motion, `solution` climbs the orders until the estimate meets the tolerance, `evaluate` evaluates with `waves`, `terms` is what a user reads.
+//! `shape` has the equations, `lock` finds the resonance of a scene and its variables, `energy` is the Hamiltonian, `form` normalizes it about the periodic motion, `convergence`
+//! estimates the error of an order, `course` makes the Fourier series of one motion, `residual` inserts it into the equations of motion, `solution` climbs the orders until the estimate meets the tolerance, `evaluate` evaluates with `waves`, `terms` is what a user reads.
 //!
 //! Imports errors, numerics, simd, orbit, torque and input.
 
+mod convergence;
 mod course;
 mod energy;
 pub(crate) mod evaluate;

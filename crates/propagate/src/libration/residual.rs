@@ -29,9 +29,10 @@ pub(super) fn residual(form: &DrivenForm, lock: &Lock, course: &FourierMotion) -
     for orbit in 0..ORBITS {
         let start = TAU * (orbit as f64 / (slowest * ORBITS as f64)).round();
         let mut means = [Complex::default(); 3];
-        for k in 0..TIMES {
-            let elapsed = start + TAU * k as f64 / TIMES as f64;
-            let left = missing(lock, course, elapsed);
+        let step = TAU / TIMES as f64;
+        for (k, seen_at) in course.at_even_times(start, step, TIMES).iter().enumerate() {
+            let elapsed = start + step * k as f64;
+            let left = missing(lock, course, elapsed, seen_at);
             let [change, inverse] = form.frame(&lock.shape.driven(course.orbit_phases(elapsed)));
             for (mode, mean) in means.iter_mut().enumerate() {
                 let left: Complex<f64> = inverse[2 * mode + 1].iter().zip(left).map(|(a, b)| a * b).sum();
@@ -62,11 +63,10 @@ fn divisor(course: &FourierMotion, tilted: bool, mode: usize) -> f64 {
     forced.map(|rate| (rate.abs() - own).abs()).fold(least, f64::min)
 }
 
-/// ẋ − {x; H} of the six variables.
-fn missing(lock: &Lock, course: &FourierMotion, elapsed: f64) -> [f64; 6] {
-    let (state, rates) = course.with_rates(elapsed);
+/// ẋ − {x; H} of the six variables, from x and ẋ.
+fn missing(lock: &Lock, course: &FourierMotion, elapsed: f64, [state, rates]: &[[f64; 6]; 2]) -> [f64; 6] {
     let [anomaly, node] = course.orbit_phases(elapsed);
-    let slopes = slopes(&lock.shape, &state, anomaly, node);
+    let slopes = slopes(&lock.shape, state, anomaly, node);
     std::array::from_fn(
         |slot| if slot % 2 == 0 { rates[slot] - slopes[slot + 1] } else { rates[slot] + slopes[slot - 1] },
     )

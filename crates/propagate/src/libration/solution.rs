@@ -1,7 +1,5 @@
-//! The order that a tolerance needs, and the estimate of the error.
-//!
-//! Let d be the largest distance of the motions of the orders N and N − 2 at times over the span, and d′ that of the orders N − 2 and N − 4. d is the error of the
-//! order N − 2, to the next order; the error of the order N is about d · d/d′. The estimate is a factor times this, and what was dropped, and rounding.
+//! The order that a tolerance needs. The estimate of each order that is tried costs no Fourier series ([`Convergence`]); the series of the order that is taken is inserted into
+//! the equations of motion.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::RangeInclusive;
@@ -11,8 +9,9 @@ use std::sync::atomic::AtomicBool;
 use andoyer_series::Error as SeriesError;
 use andoyer_series::periodic::DrivenForm;
 
+use super::convergence::Convergence;
 use super::course::FourierMotion;
-use super::form::form;
+use super::form;
 use super::lock::Lock;
 use super::residual::residual;
 use crate::error::Error;
@@ -20,28 +19,22 @@ use crate::motion::plan::in_words;
 
 /// Orders without a phase of the orbit, with one and with two.
 const HIGHEST: [usize; 3] = [16, 12, 6];
+/// The first order that is tried.
+const FIRST: usize = 4;
 /// Orders that can be asked for.
 const ORDERS: RangeInclusive<usize> = 2..=16;
 /// An amplitude \[rad\] that is blamed before a divisor.
 const LARGE: f64 = 0.35;
 /// A divisor below this part of the smallest frequency is a resonance.
 const NEAR: f64 = 0.1;
-/// The estimate over the error that three orders in geometric progression predict.
-const SAFETY: f64 = 12.0;
+/// Where the progression would leave more than this times the tolerance at the highest order, no further order is tried.
+const HOPELESS: f64 = 10.0;
 /// Beyond this residual \[rad\] the series is no motion: a body that left the resonance had one of 1.3 and an error of 1.8, where the orders differed by 0.01.
 const LARGEST_RESIDUAL: f64 = 0.03;
-/// Times over the span at which motions are compared.
-const TIMES: usize = 24;
-/// Rounding of the coefficients and of the evaluation, relative to the angles.
-const ROUNDING: f64 = 4e-15;
-/// The relative rounding of the frequencies.
-const FREQUENCIES: f64 = 1e-15;
-/// Fractions of the tolerance for dropped terms: of the Fourier series of each order, and of that of the result.
+/// Fractions of the tolerance for dropped terms: of the Fourier series that is inserted into the equations of motion, and of that of the result.
 const DROPPED: [f64; 2] = [1e-3, 0.1];
 /// Harmonics below this fraction of the tolerance are never formed.
 const NEGLIGIBLE: f64 = 1e-7;
-/// No further order is tried after one with so many harmonics: it would take some seconds.
-const MOST_HARMONICS: usize = 6000;
 /// The libration of a body locked to an orbit: its proper modes and its terms, in the frame that turns with the resonance.
 #[derive(Clone, Debug)]
 pub struct Libration {
@@ -52,18 +45,6 @@ pub struct Libration {
     pub(super) error: f64,
     /// What the series leaves in the equations of motion, as an angle \[rad\].
     pub(super) residual: f64,
-}
-
-/// One order: its normal form, its motion, and the distance from that two orders below.
-struct Rung {
-    form: Arc<DrivenForm>,
-    /// Without harmonics that count for nothing.
-    course: FourierMotion,
-    /// The sum of those, and the number of all.
-    dropped: f64,
-    harmonics: usize,
-    order: usize,
-    distance: f64,
 }
 
 /// What a libration is to meet.
@@ -81,66 +62,85 @@ pub(crate) struct Wanted {
 /// # Errors
 /// [`Error::Stopped`]; otherwise the reason in words.
 pub(crate) fn solved(lock: Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libration, String>, Error> {
+    match climb(&lock, wanted, stop) {
+        Ok(found) => Ok(found),
+        Err(SeriesError::Interrupted { .. }) => Err(Error::Stopped),
+        Err(error) => Ok(Err(error.to_string())),
+    }
+}
+
+fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libration, String>, SeriesError> {
     if let Some(order) = wanted.order.filter(|order| !ORDERS.contains(order)) {
         return Ok(Err(format!("its order is from {} to {}, not {order}", ORDERS.start(), ORDERS.end())));
     }
+    let longest = wanted.reach.into_iter().fold(0.0_f64, |most, time| most.max(time.abs()));
+    let motion =
+        |form: &DrivenForm, normal: &[f64]| FourierMotion::new(form, lock, normal, NEGLIGIBLE * wanted.tolerance);
+    let mut form = form::form(&lock.shape, 0, wanted.tolerance, None, stop)?;
+    let linear = motion(&form, &form.at(&lock.shape.driven(lock.start)).to_normal(&lock.state)?)?;
+    // A libration in longitude is below a quarter turn.
+    if linear.angle() > FRAC_PI_2 {
+        return Ok(Err(limit(lock, &linear, &linear)));
+    }
     let highest = wanted.order.unwrap_or(HIGHEST[lock.shape.rates().len()]);
-    let (mut rungs, mut best): (Vec<Rung>, Option<Libration>) = (Vec::new(), None);
-    for order in (highest % 2..=highest).step_by(2) {
-        let known = rungs.last().map(|rung| &*rung.form);
-        let made = form(&lock.shape, order, wanted.tolerance, known, stop)
-            .and_then(|form| Ok((FourierMotion::new(&form, &lock, NEGLIGIBLE * wanted.tolerance)?, form)));
-        let (mut course, form) = match made {
-            Err(SeriesError::Interrupted { .. }) => return Err(Error::Stopped),
-            Err(error)
-                if (rungs.len() < 3 || wanted.order.is_some()) && !matches!(error, SeriesError::NotFinite { .. }) =>
-            {
-                return Ok(Err(error.to_string()));
-            }
+    let (mut best, mut residual): (Option<(Arc<DrivenForm>, Convergence)>, f64) = (None, f64::INFINITY);
+    for order in (wanted.order.unwrap_or(FIRST)..=highest).step_by(2) {
+        form = match form::form(&lock.shape, order, wanted.tolerance, Some(&form), stop) {
+            Err(error) if best.is_none() || matches!(error, SeriesError::Interrupted { .. }) => return Err(error),
             Err(_) => break,
-            Ok(made) => made,
+            Ok(form) => form,
         };
-        // A libration in longitude is below a quarter turn.
-        if rungs.is_empty() && course.angle() > FRAC_PI_2 {
-            return Ok(Err(limit(&lock, &course, &course)));
+        let convergence = match Convergence::new(&form, lock, longest) {
+            Err(SeriesError::NotFinite { .. }) => break,
+            convergence => convergence?,
+        };
+        let mut stays = false;
+        if convergence.error <= wanted.tolerance
+            && let Some(libration) = libration(&form, &convergence, lock, wanted)?
+        {
+            if libration.error <= wanted.tolerance {
+                return Ok(Ok(libration));
+            }
+            stays = libration.residual >= residual;
+            residual = libration.residual;
         }
-        let harmonics = course.harmonics.len();
-        // What is dropped counts in the residual over the smallest divisor.
-        let slowest = course.frequencies.iter().fold(1.0_f64, |least, rate| least.min(rate.abs()));
-        let dropped = course.drop_below(DROPPED[0] * wanted.tolerance * slowest);
-        let distance = rungs.last().map_or(f64::INFINITY, |last| distance(&course, &last.course, wanted.reach));
-        rungs.push(Rung { form, course, dropped, harmonics, order, distance });
-        let many = rungs.last().is_some_and(|last| last.harmonics > MOST_HARMONICS);
-        if wanted.order.map_or(rungs.len() < 3, |asked| order < asked) {
-            continue;
+        // Where two orders are not nearer to each other than the two before, or leave as much, a further one takes some seconds and is no better.
+        let ends = stays
+            || convergence.ratio >= 1.0
+            || convergence.error * convergence.ratio.powi((highest - order) as i32 / 2) > HOPELESS * wanted.tolerance;
+        if best.as_ref().is_none_or(|(_, best)| convergence.error < best.error) {
+            best = Some((Arc::clone(&form), convergence));
         }
-        let next = candidate(&rungs, &lock, wanted);
-        // Where two orders are not nearer to each other than the two before, a further one takes some seconds and is no better.
-        let diverges = next.is_none() && matches!(&rungs[..], [.., last, next] if next.distance >= last.distance);
-        let error = best.as_ref().map_or(f64::INFINITY, |best| best.error);
-        best = next.filter(|next| next.error < error).or(best);
-        if many || diverges || best.as_ref().is_some_and(|best| best.error <= wanted.tolerance) {
+        if ends {
             break;
         }
     }
-    let why = || match &rungs[..] {
-        [first, .., last] => limit(&lock, &first.course, &last.course),
-        _ => "no order converges".to_owned(),
-    };
-    Ok(best.filter(|best| best.error < PI).ok_or_else(why))
+    let Some((form, convergence)) = best else { return Ok(Err(limit(lock, &linear, &linear))) };
+    let found = libration(&form, &convergence, lock, wanted)?.filter(|found| found.error < PI);
+    match found {
+        Some(libration) => Ok(Ok(libration)),
+        None => Ok(Err(limit(lock, &linear, &motion(&form, &convergence.normal)?))),
+    }
 }
 
-/// The libration by the last order; none without an estimate.
-fn candidate(rungs: &[Rung], lock: &Lock, wanted: &Wanted) -> Option<Libration> {
-    let (estimate, last) = (estimate(rungs, wanted.reach)?, rungs.last()?);
-    let residual = residual(&last.form, lock, &last.course);
+/// The libration by a form; none where its series is no motion.
+fn libration(
+    form: &DrivenForm,
+    convergence: &Convergence,
+    lock: &Lock,
+    wanted: &Wanted,
+) -> Result<Option<Libration>, SeriesError> {
+    let mut course = FourierMotion::new(form, lock, &convergence.normal, NEGLIGIBLE * wanted.tolerance)?;
+    // What is dropped counts in the residual over the smallest divisor.
+    let slowest = course.frequencies.iter().fold(1.0_f64, |least, rate| least.min(rate.abs()));
+    let dropped = course.drop_below(DROPPED[0] * wanted.tolerance * slowest);
+    let residual = residual(form, lock, &course);
     if residual > LARGEST_RESIDUAL {
-        return None;
+        return Ok(None);
     }
-    let mut course = last.course.clone();
-    let dropped = last.dropped + course.drop_below(DROPPED[1] * wanted.tolerance);
-    let error = estimate.max(residual) + dropped + lock.others;
-    Some(Libration { lock: lock.clone(), course, order: last.order, error, residual })
+    let dropped = dropped + course.drop_below(DROPPED[1] * wanted.tolerance);
+    let error = convergence.error.max(residual) + dropped + lock.others;
+    Ok(Some(Libration { lock: lock.clone(), course, order: form.order(), error, residual }))
 }
 
 /// Why a series is not near the motion: the smallest divisor among low multiples, or the amplitude. `linear` is the motion of order 0.
@@ -152,23 +152,11 @@ pub(super) fn limit(lock: &Lock, linear: &FourierMotion, course: &FourierMotion)
             "the multiples {multiples:?} of the proper frequencies and of the orbit's have the small divisor {divisor:.1e} n"
         );
     }
-    let (degrees, resonance) = (linear.angle().to_degrees(), in_words(lock.shape.twice));
-    format!("an amplitude of {degrees:.0} degrees is beyond the range of the series about the resonance {resonance}")
-}
-
-/// The largest distance of two motions over a span.
-fn distance(one: &FourierMotion, two: &FourierMotion, [before, after]: [f64; 2]) -> f64 {
-    let time = |k: usize| before + (after - before) * (k as f64 / TIMES as f64);
-    (0..=TIMES).map(|k| one.distance(two, time(k))).fold(0.0, f64::max)
-}
-
-/// The estimate of the error of the last of two orders or more. The first order has no distance from one below.
-fn estimate(rungs: &[Rung], [before, after]: [f64; 2]) -> Option<f64> {
-    let [.., second, last] = rungs else { return None };
-    let ratio = if second.distance.is_finite() { (last.distance / second.distance).min(1.0) } else { 1.0 };
-    let longest = before.abs().max(after.abs());
-    let amplitude = last.course.amplitude();
-    let fastest = last.course.frequencies.iter().fold(1.0_f64, |most, rate| most.max(rate.abs()));
-    let rounding = ROUNDING * (1.0 + amplitude) + FREQUENCIES * fastest * longest * amplitude;
-    Some(SAFETY * (last.distance * ratio + last.course.missed) + rounding)
+    // A linear motion with a large angle is none of the body.
+    let amplitude = match linear.angle() {
+        angle if angle > PI => "above half a turn".to_owned(),
+        angle => format!("of {:.0} degrees", angle.to_degrees()),
+    };
+    let resonance = in_words(lock.shape.twice);
+    format!("an amplitude {amplitude} is beyond the range of the series about the resonance {resonance}")
 }

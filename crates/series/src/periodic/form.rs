@@ -25,7 +25,7 @@ use crate::birkhoff::matrix::symplectic_inverse;
 use crate::bracket::Poisson;
 use crate::error::Error;
 use crate::monomial::Monomial;
-use crate::polynomial::Polynomial;
+use crate::polynomial::{Polynomial, Truncation};
 use crate::triangle::{LieTransform, Progress, normalize_backwards};
 
 /// Harmonics to begin with, and the most of one phase. All are multiples of four: one time more than a multiple of eight suits vector instructions.
@@ -201,8 +201,17 @@ impl DrivenForm {
     /// # Errors
     /// - another number of actions: [`Error::CountMismatch`]; a result that is not finite: [`Error::NotFinite`].
     pub fn frequencies(&self, actions: &[f64]) -> Result<Vec<f64>, Error> {
+        self.frequencies_of_order(self.order(), actions)
+    }
+
+    /// The same by the terms to an order, which are those of the form of this order.
+    ///
+    /// # Errors
+    /// - Those of [`frequencies`](Self::frequencies).
+    pub fn frequencies_of_order(&self, order: usize, actions: &[f64]) -> Result<Vec<f64>, Error> {
         check("actions", actions, self.motion.modes.len())?;
-        self.frequencies.iter().map(|frequency| frequency.evaluate(actions)).collect()
+        let truncation = Truncation::total((order / 2) as u32);
+        self.frequencies.iter().map(|frequency| frequency.truncate(&truncation).evaluate(actions)).collect()
     }
 }
 

@@ -6,6 +6,7 @@ use num_traits::Zero;
 use super::form::DrivenForm;
 use super::images::{ImageGroup, ImageTerm};
 use super::row::{Periodic, product};
+use crate::birkhoff::map::check;
 use crate::error::Error;
 
 /// One harmonic of a motion: each variable is the sum of Re(amplitude · e^{i(k·φ + j·M)}).
@@ -25,9 +26,7 @@ impl DrivenForm {
     pub fn fourier(&self, actions: &[f64], least: f64) -> Result<Vec<Harmonic>, Error> {
         self.frequencies(actions)?;
         self.centres()?;
-        // u = (i/2) √(2I) e^{−iφ}, U = √(2I) e^{iφ}
-        let moduli: Vec<f64> =
-            actions.iter().map(|action| (2.0 * action).sqrt()).flat_map(|size| [size / 2.0, size]).collect();
+        let moduli = moduli(actions);
         let largest = 2.0 * self.motion.change.iter().flatten().map(Periodic::size).fold(0.0, f64::max);
         // All terms that are left out add at most `least`.
         let negligible = least / (largest * self.images.terms().count() as f64);
@@ -101,10 +100,41 @@ impl DrivenForm {
         }
     }
 
+    /// The largest moduli that a U of modulus 1 has in q₁, p₁, …: a row for each mode, which is a centre.
+    ///
+    /// # Errors
+    /// - a mode that is no centre: [`Error::CountMismatch`].
+    pub fn gains(&self) -> Result<Vec<Vec<f64>>, Error> {
+        self.centres()?;
+        // A variable is the real part of 2 P U.
+        let gain = |mode: usize| self.motion.change.iter().map(|row| 2.0 * row[2 * mode + 1].size()).collect();
+        Ok((0..self.motion.modes.len()).map(gain).collect())
+    }
+
+    /// The largest moduli that the terms of each order add to q₁, p₁, … at fixed actions: a row for each order.
+    ///
+    /// # Errors
+    /// - another number of actions, or a mode that is no centre: [`Error::CountMismatch`].
+    pub fn sizes(&self, actions: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
+        check("actions", actions, self.motion.modes.len())?;
+        let (moduli, gains) = (moduli(actions), self.gains()?);
+        let mut sums = vec![vec![0.0; gains.len()]; self.order() + 1];
+        for term in self.images.terms() {
+            sums[term.order()][term.slot / 2] += term.size * term.modulus(&moduli);
+        }
+        let of = |sums: &[f64], variable: usize| sums.iter().zip(&gains).map(|(sum, gain)| sum * gain[variable]).sum();
+        Ok(sums.iter().map(|sums| (0..moduli.len()).map(|variable| of(sums, variable)).collect()).collect())
+    }
+
     /// Refuses modes that are no centres.
     fn centres(&self) -> Result<(), Error> {
         let (found, expected) =
             (self.motion.modes.iter().filter(|mode| mode.is_elliptic()).count(), self.motion.modes.len());
         if found == expected { Ok(()) } else { Err(Error::CountMismatch { what: "centres", found, expected }) }
     }
+}
+
+/// The moduli of u = (i/2) √(2I) e^{−iφ} and U = √(2I) e^{iφ} of each mode.
+fn moduli(actions: &[f64]) -> Vec<f64> {
+    actions.iter().map(|action| (2.0 * action).sqrt()).flat_map(|size| [size / 2.0, size]).collect()
 }

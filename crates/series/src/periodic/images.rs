@@ -59,6 +59,11 @@ impl Images {
 }
 
 impl ImageTerm {
+    /// The order of the form to which the term belongs.
+    pub(super) fn order(&self) -> usize {
+        (self.monomial.total_degree() as usize).saturating_sub(1)
+    }
+
     /// The product of the powers of the term where the variables u₁, U₁, … have these moduli.
     pub(super) fn modulus(&self, moduli: &[f64]) -> f64 {
         let powers = moduli.iter().enumerate();

@@ -29,6 +29,3 @@ pub use polynomial::{SampledHamiltonian, terms_at};
 pub use raw::RawPeriodic;
 pub use row::Periodic;
 pub use state::FormAtPhases;
-
-#[cfg(test)]
-mod tests;

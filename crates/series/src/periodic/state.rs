@@ -3,13 +3,14 @@
 use std::cmp::Ordering;
 
 use num_complex::Complex;
-use num_traits::Zero;
+use num_traits::{One, Zero};
 
 use super::form::DrivenForm;
+use super::images::ImageTerm;
 use crate::birkhoff::flow::{actions, advanced, complex_point, real_point};
 use crate::birkhoff::map::check;
 use crate::error::Error;
-use crate::polynomial::Polynomial;
+use crate::monomial::Monomial;
 
 /// Most steps to normal coordinates, and the smallest factor by which a step that counts comes nearer.
 const STEPS: usize = 80;
@@ -30,8 +31,13 @@ pub struct FormAtPhases<'a> {
     inverse: Vec<Vec<Complex<f64>>>,
 }
 
-/// Old variables by their slots, at one time.
-type ImagesAtPhases = Vec<(usize, Polynomial<Complex<f64>>)>;
+/// A term of the transformation at one time.
+struct TermAtPhases {
+    slot: usize,
+    order: usize,
+    monomial: Monomial,
+    value: Complex<f64>,
+}
 
 impl FormAtPhases<'_> {
     /// The state q₁, p₁, … of real normal variables: U = p + iq of a centre.
@@ -41,28 +47,35 @@ impl FormAtPhases<'_> {
     pub fn from_normal(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
         check("state", normal, self.origin.len())?;
         let moduli: Vec<f64> = complex_point(&self.form.motion.modes, normal).iter().map(|c| c.norm()).collect();
-        self.image(normal, &self.images(&moduli))
+        self.image(normal, &self.terms(&moduli), self.form.order())
     }
 
     /// The terms that count where the complex variables have these moduli.
-    fn images(&self, moduli: &[f64]) -> ImagesAtPhases {
+    fn terms(&self, moduli: &[f64]) -> Vec<TermAtPhases> {
         let negligible = NEGLIGIBLE * moduli.iter().copied().fold(0.0, f64::max);
-        let mut terms = vec![Vec::new(); moduli.len()];
-        for term in self.form.images.terms() {
-            // A bound that is not a number counts.
-            if (term.size * term.modulus(moduli)).partial_cmp(&negligible) != Some(Ordering::Less) {
-                terms[term.slot].push((term.monomial, term.coefficient.weighted(&self.weights)));
-            }
-        }
-        terms.into_iter().map(Polynomial::from_terms).enumerate().filter(|(_, image)| !image.is_zero()).collect()
+        // A bound that is not a number counts.
+        let counts =
+            |term: &&ImageTerm| (term.size * term.modulus(moduli)).partial_cmp(&negligible) != Some(Ordering::Less);
+        let at = |term: &ImageTerm| TermAtPhases {
+            slot: term.slot,
+            order: term.order(),
+            monomial: term.monomial,
+            value: term.coefficient.weighted(&self.weights),
+        };
+        self.form.images.terms().filter(counts).map(at).collect()
     }
 
-    fn image(&self, normal: &[f64], images: &ImagesAtPhases) -> Result<Vec<f64>, Error> {
+    /// The state of real normal variables by the terms to an order.
+    fn image(&self, normal: &[f64], terms: &[TermAtPhases], order: usize) -> Result<Vec<f64>, Error> {
         let modes = &self.form.motion.modes;
-        let point = complex_point(modes, normal);
+        let powers: Vec<Vec<Complex<f64>>> = complex_point(modes, normal)
+            .into_iter()
+            .map(|z| std::iter::successors(Some(Complex::one()), |power| Some(power * z)).take(order + 2).collect())
+            .collect();
         let mut values = vec![Complex::zero(); normal.len()];
-        for (slot, image) in images {
-            values[*slot] = image.evaluate(&point)?;
+        for term in terms.iter().filter(|term| term.order <= order) {
+            let powers = powers.iter().enumerate().map(|(slot, powers)| powers[term.monomial.exponent(slot) as usize]);
+            values[term.slot] += powers.fold(term.value, |product, power| product * power);
         }
         for mode in 0..modes.len() {
             if modes[mode].is_elliptic() {
@@ -86,6 +99,14 @@ impl FormAtPhases<'_> {
     /// # Errors
     /// - another number of variables: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`].
     pub fn to_normal(&self, state: &[f64]) -> Result<Vec<f64>, Error> {
+        Ok(self.to_normal_by_orders(state, &[self.form.order()])?.remove(0).0)
+    }
+
+    /// The same by the terms to each of some orders, which are those of the forms of these orders, and how far the image is from the state.
+    ///
+    /// # Errors
+    /// - Those of [`to_normal`](Self::to_normal).
+    pub fn to_normal_by_orders(&self, state: &[f64], orders: &[usize]) -> Result<Vec<(Vec<f64>, f64)>, Error> {
         check("state", state, self.origin.len())?;
         let modes = &self.form.motion.modes;
         let linear = |state: &[f64]| -> Vec<f64> {
@@ -94,26 +115,29 @@ impl FormAtPhases<'_> {
             real_point(modes, &self.inverse.iter().map(row).collect::<Vec<_>>())
         };
         let wanted = linear(state);
-        let (mut normal, mut best, mut least) = (wanted.clone(), wanted.clone(), f64::INFINITY);
         // A variable that is 0 in the linear part is not 0 in the state.
         let point = complex_point(modes, &wanted);
         let largest = MARGIN * point.iter().map(|c| c.norm()).fold(0.0, f64::max);
-        let images = self.images(&vec![largest; point.len()]);
-        for _ in 0..STEPS {
-            let image = self.image(&normal, &images)?;
-            let miss = image.iter().zip(state).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-            // Rounding ends the iteration, or the range.
-            if miss.is_nan() || miss >= least * SLOWEST {
+        let terms = self.terms(&vec![largest; point.len()]);
+        let settled = |&order: &usize| {
+            let (mut normal, mut best, mut least) = (wanted.clone(), wanted.clone(), f64::INFINITY);
+            for _ in 0..STEPS {
+                let image = self.image(&normal, &terms, order)?;
+                let miss = image.iter().zip(state).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+                // Rounding ends the iteration, or the range.
+                let ends = miss.is_nan() || miss >= least * SLOWEST;
                 if miss < least {
-                    best.clone_from(&normal);
+                    (least, best) = (miss, normal.clone());
                 }
-                break;
+                if ends {
+                    break;
+                }
+                let seen = linear(&image);
+                normal.iter_mut().zip(wanted.iter().zip(seen)).for_each(|(x, (wanted, seen))| *x += wanted - seen);
             }
-            (least, best) = (miss, normal.clone());
-            let seen = linear(&image);
-            normal.iter_mut().zip(wanted.iter().zip(seen)).for_each(|(x, (wanted, seen))| *x += wanted - seen);
-        }
-        Ok(best)
+            Ok((best, least))
+        };
+        orders.iter().map(settled).collect()
     }
 }
 

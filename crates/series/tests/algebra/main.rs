@@ -16,6 +16,7 @@ mod json;
 mod latex;
 mod monomial;
 mod parse;
+mod periodic;
 mod prime_field;
 mod product;
 mod rigid_body;

@@ -1,11 +1,12 @@
-use super::*;
-use crate::birkhoff::{Mode, PhaseSpace, normalize};
-use crate::error::Error;
-use crate::monomial::Monomial;
-use crate::polynomial::Polynomial;
-use crate::triangle::quiet;
-use num_complex::Complex;
+//! Normal forms about a periodic motion, on a grid of times.
+
 use std::f64::consts::{FRAC_PI_2, TAU};
+
+use andoyer_series::birkhoff::{Mode, PhaseSpace, normalize};
+use andoyer_series::periodic::{DrivenForm, DrivenOptions, SampledHamiltonian, terms_at};
+use andoyer_series::progress::quiet;
+use andoyer_series::{Error, Monomial, Polynomial};
+use num_complex::Complex;
 
 fn options(order: usize) -> DrivenOptions {
     DrivenOptions { order, tolerance: 1e-12, smallest_divisor: 1e-9 }
@@ -184,6 +185,47 @@ fn forms_of_other_orders_about_the_same_motion_are_those_made_alone() -> Result<
             let form = known.to_order(&sampled, order, &mut quiet)?;
             assert_eq!((form.order(), form.in_complex()), (order, expected.in_complex()));
         }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_terms_to_an_order_are_the_form_of_that_order() -> Result<(), Error> {
+    let sampled = SampledHamiltonian::new(1, planar(0.05, 1.0, 0.1, 14));
+    let high = DrivenForm::new(&sampled, &[1.0], options(6), &mut quiet)?;
+    let (state, orders) = ([0.1, 0.02], [0, 2, 4, 6]);
+    let found = high.at(&[0.7]).to_normal_by_orders(&state, &orders)?;
+    for (order, (normal, missed)) in orders.into_iter().zip(found) {
+        let form = high.to_order(&sampled, order, &mut quiet)?;
+        let alone = form.at(&[0.7]).to_normal(&state)?;
+        let miss = normal.iter().zip(&alone).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        assert!(miss < 1e-16 && missed < 1e-16, "{order}: {normal:?} {alone:?}, {missed:e}");
+        let actions = form.actions_of(&normal);
+        let (one, two) = (high.frequencies_of_order(order, &actions)?, form.frequencies(&actions)?);
+        assert!((one[0] - two[0]).abs() < 1e-15, "{order}: {one:?} {two:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn sizes_by_order_bound_what_the_terms_of_an_order_add() -> Result<(), Error> {
+    let sampled = SampledHamiltonian::new(1, planar(0.05, 1.0, 0.1, 14));
+    let high = DrivenForm::new(&sampled, &[1.0], options(4), &mut quiet)?;
+    let low = high.to_order(&sampled, 2, &mut quiet)?;
+    let normal = [0.03, 0.1];
+    let (sizes, gains) = (high.sizes(&high.actions_of(&normal))?, high.gains()?);
+    assert!((sizes[0][0] - gains[0][0] * 0.03_f64.hypot(0.1)).abs() < 1e-15);
+    let bound = [0, 1].map(|variable| sizes[3][variable] + sizes[4][variable]);
+    let mut most = [0.0_f64; 2];
+    for k in 0..40 {
+        let turned = high.advanced(&normal, &[1.0], f64::from(k));
+        let phases = [0.37 * f64::from(k)];
+        let [one, two] = [&high, &low].map(|form| form.at(&phases).from_normal(&turned));
+        let (one, two) = (one?, two?);
+        most = [0, 1].map(|variable| most[variable].max((one[variable] - two[variable]).abs()));
+    }
+    for (most, bound) in most.into_iter().zip(bound) {
+        assert!(most <= bound && most > bound / 10.0, "{most:e} {bound:e}");
     }
     Ok(())
 }
