@@ -347,7 +347,7 @@ def test_pck_is_read_without_spice_too(tmp_path):
 def test_binary_file_is_whole_for_spice(tmp_path, furnished):
     """Ten pieces of a day: comments, coverage, names of segments, and more summaries than fit a record."""
     path = tmp_path / "a.bc"
-    write_ck(path, TUMBLER, (0.0, 6000.0), Kernel(segment="A NAME OF FORTY CHARACTERS 4567890123456", comments=("x" * 200,)), interpolation_error=1e-9)
+    write_ck(path, TUMBLER, (0.0, 6000.0), Kernel(segment="A NAME OF FORTY CHARACTERS 4567890123456", comments=("x" * 200,)), interpolation_error=1e-8)
     handle = spice.dafopr(str(path))
     spice.dafbfs(handle)
     names = []

@@ -17,6 +17,8 @@ use super::lock::Lock;
 
 /// The estimate over the error that three orders in geometric progression predict.
 const SAFETY: f64 = 12.0;
+/// The progression will miss a tolerance by which it would be so many times larger at the highest order: the ratio of two orders can become smaller.
+const HOPELESS: f64 = 10.0;
 /// Rounding of the coefficients and of the evaluation, relative to the angles.
 const ROUNDING: f64 = 4e-15;
 /// The relative rounding of the frequencies.
@@ -28,8 +30,10 @@ pub(super) struct Convergence {
     pub(super) normal: Vec<f64>,
     /// d/d′, at most 1; 1 for an order without two below it.
     pub(super) ratio: f64,
-    /// The estimate of the error over the span \[rad\].
-    pub(super) error: f64,
+    /// The estimate of the error over the span by the orders that are left out \[rad\].
+    pub(super) truncation: f64,
+    /// The rounding error over the span \[rad\].
+    pub(super) rounding: f64,
 }
 
 /// The motion by the terms to one order.
@@ -68,8 +72,24 @@ impl Convergence {
         let amplitude = gains.iter().zip(moduli(&last.normal)).map(|(gain, modulus)| gain * modulus).sum::<f64>();
         let fastest = last.rates.iter().fold(1.0_f64, |most, rate| most.max(rate.abs()));
         let rounding = ROUNDING * (1.0 + amplitude) + FREQUENCIES * fastest * longest * amplitude;
-        let error = SAFETY * (distance * ratio + last.missed) + rounding;
-        Ok(Self { ratio, error, normal: last.normal.clone() })
+        let truncation = SAFETY * (distance * ratio + last.missed);
+        Ok(Self { ratio, truncation, rounding, normal: last.normal.clone() })
+    }
+
+    /// The estimate of the error over the span \[rad\].
+    pub(super) fn error(&self) -> f64 {
+        self.truncation + self.rounding
+    }
+
+    /// Whether no further order is better: where two orders are not nearer to each other than the two before, or where rounding is larger than what is left out.
+    pub(super) fn is_over(&self) -> bool {
+        self.ratio >= 1.0 || self.truncation < self.rounding
+    }
+
+    /// Whether so many further orders will not meet a tolerance, by the progression and by rounding.
+    pub(super) fn will_miss(&self, orders: usize, tolerance: f64) -> bool {
+        let left = self.truncation * self.ratio.powi((orders / 2) as i32);
+        left > HOPELESS * tolerance || self.rounding > tolerance
     }
 }
 

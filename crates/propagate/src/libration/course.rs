@@ -1,5 +1,7 @@
 //! The motion of one state by a normal form: proper actions and angles, and a Fourier series.
 
+use std::cmp::Reverse;
+
 use andoyer_series::Error;
 use andoyer_series::periodic::{DrivenForm, Harmonic};
 use num_complex::Complex;
@@ -42,8 +44,9 @@ impl FourierMotion {
 
     /// Leaves out the smallest harmonics, which together are at most `least`, and those with too high multiples; returns the sum of all.
     pub(crate) fn drop_below(&mut self, least: f64) -> f64 {
-        let size = |harmonic: &Harmonic| harmonic.amplitudes.iter().map(|c| c.norm()).sum::<f64>();
-        self.harmonics.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        let size = |harmonic: &Harmonic| harmonic.amplitudes.iter().map(|c| c.norm_sqr().sqrt()).sum::<f64>();
+        // The bits of positive numbers are in the order of the numbers.
+        self.harmonics.sort_by_cached_key(|harmonic| Reverse(size(harmonic).to_bits()));
         let mut dropped = 0.0;
         while let Some(last) = self.harmonics.last().map(size).filter(|last| dropped + last <= least) {
             dropped += last;

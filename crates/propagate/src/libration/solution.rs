@@ -15,7 +15,7 @@ use super::form;
 use super::lock::Lock;
 use super::residual::residual;
 use crate::error::Error;
-use crate::motion::plan::in_words;
+use crate::motion::plan::{bound_in_words, in_words};
 
 /// Orders without a phase of the orbit, with one and with two.
 const HIGHEST: [usize; 3] = [16, 12, 6];
@@ -25,10 +25,10 @@ const FIRST: usize = 4;
 const ORDERS: RangeInclusive<usize> = 2..=16;
 /// An amplitude \[rad\] that is blamed before a divisor.
 const LARGE: f64 = 0.35;
+/// An amplitude \[rad\] that is never blamed.
+const SMALL: f64 = 0.05;
 /// A divisor below this part of the smallest frequency is a resonance.
 const NEAR: f64 = 0.1;
-/// Where the progression would leave more than this times the tolerance at the highest order, no further order is tried.
-const HOPELESS: f64 = 10.0;
 /// Beyond this residual \[rad\] the series is no motion: a body that left the resonance had one of 1.3 and an error of 1.8, where the orders differed by 0.01.
 const LARGEST_RESIDUAL: f64 = 0.03;
 /// Fractions of the tolerance for dropped terms: of the Fourier series that is inserted into the equations of motion, and of that of the result.
@@ -55,6 +55,8 @@ pub(crate) struct Wanted {
     pub(crate) reach: [f64; 2],
     /// A fixed order, or that which the tolerance needs.
     pub(crate) order: Option<usize>,
+    /// Whether a motion that misses the tolerance is of no use.
+    pub(crate) strict: bool,
 }
 
 /// The motion of a lock: the lowest order whose estimate meets the tolerance, or the order with the least estimate, or that which was asked for; or why there is none.
@@ -83,7 +85,7 @@ fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libra
         return Ok(Err(limit(lock, &linear, &linear)));
     }
     let highest = wanted.order.unwrap_or(HIGHEST[lock.shape.rates().len()]);
-    let (mut best, mut residual): (Option<(Arc<DrivenForm>, Convergence)>, f64) = (None, f64::INFINITY);
+    let (mut best, mut residual): (Option<(Arc<DrivenForm>, Convergence)>, Option<f64>) = (None, None);
     for order in (wanted.order.unwrap_or(FIRST)..=highest).step_by(2) {
         form = match form::form(&lock.shape, order, wanted.tolerance, Some(&form), stop) {
             Err(error) if best.is_none() || matches!(error, SeriesError::Interrupted { .. }) => return Err(error),
@@ -95,32 +97,35 @@ fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libra
             convergence => convergence?,
         };
         let mut stays = false;
-        if convergence.error <= wanted.tolerance
+        if convergence.error() <= wanted.tolerance
             && let Some(libration) = libration(&form, &convergence, lock, wanted)?
         {
             if libration.error <= wanted.tolerance {
                 return Ok(Ok(libration));
             }
-            stays = libration.residual >= residual;
-            residual = libration.residual;
+            stays = residual.is_some_and(|before| libration.residual >= before);
+            residual = Some(libration.residual);
         }
-        // Where two orders are not nearer to each other than the two before, or leave as much, a further one takes some seconds and is no better.
         let ends = stays
-            || convergence.ratio >= 1.0
-            || convergence.error * convergence.ratio.powi((highest - order) as i32 / 2) > HOPELESS * wanted.tolerance;
-        if best.as_ref().is_none_or(|(_, best)| convergence.error < best.error) {
+            || convergence.is_over()
+            || (wanted.strict && convergence.will_miss(highest - order, wanted.tolerance));
+        if best.as_ref().is_none_or(|(_, best)| convergence.error() < best.error()) {
             best = Some((Arc::clone(&form), convergence));
         }
+        // A further order takes some seconds.
         if ends {
             break;
         }
     }
     let Some((form, convergence)) = best else { return Ok(Err(limit(lock, &linear, &linear))) };
-    let found = libration(&form, &convergence, lock, wanted)?.filter(|found| found.error < PI);
-    match found {
-        Some(libration) => Ok(Ok(libration)),
-        None => Ok(Err(limit(lock, &linear, &motion(&form, &convergence.normal)?))),
+    let error = convergence.error().max(residual.unwrap_or(0.0));
+    if !(wanted.strict || error > PI)
+        && let Some(libration) = libration(&form, &convergence, lock, wanted)?.filter(|found| found.error < PI)
+    {
+        return Ok(Ok(libration));
     }
+    let limit = limit(lock, &linear, &motion(&form, &convergence.normal)?);
+    Ok(Err(if error < PI { format!("its error bound is {}; {limit}", bound_in_words(error)) } else { limit }))
 }
 
 /// The libration by a form; none where its series is no motion.
@@ -139,14 +144,17 @@ fn libration(
         return Ok(None);
     }
     let dropped = dropped + course.drop_below(DROPPED[1] * wanted.tolerance);
-    let error = convergence.error.max(residual) + dropped + lock.others;
+    let error = convergence.error().max(residual) + dropped + lock.others;
     Ok(Some(Libration { lock: lock.clone(), course, order: form.order(), error, residual }))
 }
 
-/// Why a series is not near the motion: the smallest divisor among low multiples, or the amplitude. `linear` is the motion of order 0.
+/// Why a series is not near the motion: the smallest divisor among low multiples, or the amplitude, or the span. `linear` is the motion of order 0.
 pub(super) fn limit(lock: &Lock, linear: &FourierMotion, course: &FourierMotion) -> String {
     let slowest = linear.frequencies.iter().fold(1.0_f64, |least, rate| least.min(rate.abs()));
     let (multiples, divisor) = course.smallest_divisor(linear);
+    if linear.angle() < SMALL && divisor >= NEAR * slowest {
+        return "its frequencies are not accurate enough over the span".to_owned();
+    }
     if divisor < NEAR * slowest && linear.angle() < LARGE {
         return format!(
             "the multiples {multiples:?} of the proper frequencies and of the orbit's have the small divisor {divisor:.1e} n"

@@ -41,8 +41,9 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> 
     let far = DEFAULT_ROTATIONS * TAU;
     let reach = scene.asked_span().map_or([-far, far], |(start, stop)| [start, stop].map(|time| n * (time - epoch)));
     // Of "auto" the order is that of a series.
-    let order = scene.asked_order().filter(|_| scene.asked_method() == Method::Libration);
-    let wanted = Wanted { tolerance: scene.asked_tolerance(), reach, order };
+    let strict = scene.asked_method() != Method::Libration;
+    let order = scene.asked_order().filter(|_| !strict);
+    let wanted = Wanted { tolerance: scene.asked_tolerance(), reach, order, strict };
     let libration = solution::solved(lock, &wanted, stop)?.map_err(no)?;
     let unforced = Scene::new(scene.body().clone(), *scene.state());
     let polhode = Polhode::new(unforced.body(), unforced.state());
