@@ -1,7 +1,7 @@
 //! The estimate of the error from the terms of one normal form.
 //!
-//! The terms of a form to a lower order are the form of that order. Let d be a bound of the distance over the span of the motions by the terms to N and to N − 2, and d′ that of
-//! N − 2 and N − 4. d is the error of the order N − 2, to the next order, and the error of the order N is about d · d/d′. The estimate is a factor times this, and rounding.
+//! The terms of a form to a lower order are the form of that order. Let d be the distance over the span of the motions by the terms to N and to N − 2, and d′ that of N − 2 and
+//! N − 4. d is the error of the order N − 2, to the next order, and the error of the order N is about d · d/d′. The estimate is a factor times this, and rounding.
 //!
 //! A motion has the normal variables U = √(2I) e^{iφ} with the rates ω. Those of two orders differ by δU at the epoch and by δω in the rates, and the last terms of the
 //! transformation have a size; in the angles, with the gains |∂x/∂U|,
@@ -9,6 +9,8 @@
 //! ```text
 //! d = Σ gain (|δU| + |δω| span |U|) + Σ sizes of the terms between the orders
 //! ```
+//!
+//! where the three angles count in the square, and so do terms with different multiples of the proper angles.
 
 use andoyer_series::Error;
 use andoyer_series::periodic::DrivenForm;
@@ -53,7 +55,7 @@ impl Convergence {
     /// Those of the form: a state beyond the range of the series can overflow.
     pub(super) fn new(form: &DrivenForm, lock: &Lock, longest: f64) -> Result<Self, Error> {
         let motions = motions(form, lock)?;
-        let in_angles = |variables: &Vec<f64>| variables.iter().step_by(2).sum::<f64>();
+        let in_angles = |variables: &Vec<f64>| variables.iter().step_by(2).map(|x| x * x).sum::<f64>().sqrt();
         let gains: Vec<f64> = form.gains()?.iter().map(in_angles).collect();
         let last = &motions[motions.len() - 1];
         let sizes: Vec<f64> = form.sizes(&form.actions_of(&last.normal))?.iter().map(in_angles).collect();

@@ -21,9 +21,9 @@ const MOST: i32 = 8;
 /// A smaller divisor than that of the terms that turn fast in a mode.
 const FAST: f64 = 0.5;
 
-/// The error of the angles by the residual of the equations of motion. In the frame that turns with a mode, the mean over an orbit is divided by the
-/// smallest divisor of the mode, and the rest by that of fast terms; of both the largest of some orbits counts.
-pub(super) fn residual(form: &DrivenForm, lock: &Lock, course: &FourierMotion) -> f64 {
+/// The error of the angles over a time from the epoch by the residual of the equations of motion. In the frame that turns with a mode, the mean over an orbit is divided by the
+/// smallest divisor of the mode, or taken over the whole time where that is less, and the rest is divided by the divisor of fast terms; of both the largest of some orbits counts.
+pub(super) fn residual(form: &DrivenForm, lock: &Lock, course: &FourierMotion, longest: f64) -> f64 {
     let slowest = course.frequencies.iter().fold(1.0_f64, |least, rate| least.min(rate.abs()));
     let (mut slow, mut fast, mut seen) = ([0.0_f64; 3], [0.0_f64; 3], [[0.0_f64; 3]; 3]);
     for orbit in 0..ORBITS {
@@ -46,7 +46,8 @@ pub(super) fn residual(form: &DrivenForm, lock: &Lock, course: &FourierMotion) -
         }
         slow.iter_mut().zip(means).for_each(|(most, mean)| *most = most.max(mean.norm()));
     }
-    let error = |mode: usize| slow[mode] / divisor(course, lock.shape.is_tilted(), mode) + fast[mode] / FAST;
+    let growth = |mode: usize| longest.min(divisor(course, lock.shape.is_tilted(), mode).recip());
+    let error = |mode: usize| slow[mode] * growth(mode) + fast[mode] / FAST;
     seen.iter().map(|angle| (0..3).map(|mode| error(mode) * angle[mode]).sum::<f64>()).sum()
 }
 

@@ -59,6 +59,13 @@ pub(crate) struct Wanted {
     pub(crate) strict: bool,
 }
 
+impl Wanted {
+    /// The longest time from the epoch.
+    fn longest(&self) -> f64 {
+        self.reach.into_iter().fold(0.0_f64, |most, time| most.max(time.abs()))
+    }
+}
+
 /// The motion of a lock: the lowest order whose estimate meets the tolerance, or the order with the least estimate, or that which was asked for; or why there is none.
 ///
 /// # Errors
@@ -75,7 +82,7 @@ fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libra
     if let Some(order) = wanted.order.filter(|order| !ORDERS.contains(order)) {
         return Ok(Err(format!("its order is from {} to {}, not {order}", ORDERS.start(), ORDERS.end())));
     }
-    let longest = wanted.reach.into_iter().fold(0.0_f64, |most, time| most.max(time.abs()));
+    let longest = wanted.longest();
     let motion =
         |form: &DrivenForm, normal: &[f64]| FourierMotion::new(form, lock, normal, NEGLIGIBLE * wanted.tolerance);
     let mut form = form::form(&lock.shape, 0, wanted.tolerance, None, stop)?;
@@ -118,7 +125,7 @@ fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libra
         }
     }
     let Some((form, convergence)) = best else { return Ok(Err(limit(lock, &linear, &linear))) };
-    let error = convergence.error().max(residual.unwrap_or(0.0));
+    let error = convergence.error() + residual.unwrap_or(0.0);
     if !(wanted.strict || error > PI)
         && let Some(libration) = libration(&form, &convergence, lock, wanted)?.filter(|found| found.error < PI)
     {
@@ -139,12 +146,12 @@ fn libration(
     // What is dropped counts in the residual over the smallest divisor.
     let slowest = course.frequencies.iter().fold(1.0_f64, |least, rate| least.min(rate.abs()));
     let dropped = course.drop_below(DROPPED[0] * wanted.tolerance * slowest);
-    let residual = residual(form, lock, &course);
+    let residual = residual(form, lock, &course, wanted.longest());
     if residual > LARGEST_RESIDUAL {
         return Ok(None);
     }
     let dropped = dropped + course.drop_below(DROPPED[1] * wanted.tolerance);
-    let error = convergence.error().max(residual) + dropped + lock.others;
+    let error = convergence.error() + residual + dropped + lock.others;
     Ok(Some(Libration { lock: lock.clone(), course, order: form.order(), error, residual }))
 }
 

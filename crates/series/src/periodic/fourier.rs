@@ -111,19 +111,30 @@ impl DrivenForm {
         Ok((0..self.motion.modes.len()).map(gain).collect())
     }
 
-    /// The largest moduli that the terms of each order add to q₁, p₁, … at fixed actions: a row for each order.
+    /// The size of what the terms of each order add to q₁, p₁, … at fixed actions: a row for each order. Terms with equal multiples of the proper angles add; different
+    /// multiples add in the mean square.
     ///
     /// # Errors
     /// - another number of actions, or a mode that is no centre: [`Error::CountMismatch`].
     pub fn sizes(&self, actions: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
         check("actions", actions, self.motion.modes.len())?;
         let (moduli, gains) = (moduli(actions), self.gains()?);
-        let mut sums = vec![vec![0.0; gains.len()]; self.order() + 1];
-        for term in self.images.terms() {
-            sums[term.order()][term.slot / 2] += term.size * term.modulus(&moduli);
+        let modes = moduli.len() / 2;
+        let mut squares = vec![vec![0.0; modes]; self.order() + 1];
+        for group in &self.images.0 {
+            let mut sums = vec![vec![[0.0; 2]; modes]; self.order() + 1];
+            for term in &group.terms {
+                sums[term.order()][term.slot / 2][usize::from(term.opposite)] += term.size * term.modulus(&moduli);
+            }
+            for (square, sum) in squares.iter_mut().flatten().zip(sums.iter().flatten()) {
+                *square += sum[0] * sum[0] + sum[1] * sum[1];
+            }
         }
-        let of = |sums: &[f64], variable: usize| sums.iter().zip(&gains).map(|(sum, gain)| sum * gain[variable]).sum();
-        Ok(sums.iter().map(|sums| (0..moduli.len()).map(|variable| of(sums, variable)).collect()).collect())
+        let of = |squares: &[f64], variable: usize| {
+            let terms = squares.iter().zip(&gains).map(|(square, gain)| square * gain[variable] * gain[variable]);
+            terms.sum::<f64>().sqrt()
+        };
+        Ok(squares.iter().map(|squares| (0..moduli.len()).map(|variable| of(squares, variable)).collect()).collect())
     }
 
     /// Refuses modes that are no centres.
