@@ -208,7 +208,7 @@ fn the_terms_to_an_order_are_the_form_of_that_order() -> Result<(), Error> {
 }
 
 #[test]
-fn sizes_by_order_bound_what_the_terms_of_an_order_add() -> Result<(), Error> {
+fn sizes_by_order_are_those_of_what_the_terms_of_an_order_add() -> Result<(), Error> {
     let sampled = SampledHamiltonian::new(1, planar(0.05, 1.0, 0.1, 14));
     let high = DrivenForm::new(&sampled, &[1.0], options(4), &mut quiet)?;
     let low = high.to_order(&sampled, 2, &mut quiet)?;
