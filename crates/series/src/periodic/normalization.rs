@@ -83,7 +83,7 @@ impl Parts<'_> {
         self.brackets(&factors?.iter().collect::<Vec<_>>(), pause)
     }
 
-    /// Σ {`left`[m]; W_{m+1}}.
+    /// The sum of the brackets of `left` with W_1, W_2, …
     fn brackets(&self, left: &[&Polynomial<Periodic>], pause: &mut Pause<'_>) -> Result<Polynomial<Periodic>, Error> {
         let right: Vec<_> = self.generators.iter().take(left.len()).collect();
         let mut sum = Accumulator::new(left, &right);
