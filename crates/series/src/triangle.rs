@@ -133,7 +133,63 @@ pub(crate) fn normalize_by<C: Coefficient>(
     Ok(Normalization { hamiltonian: normal, transform })
 }
 
-pub(crate) fn stop(flow: ControlFlow<()>, done: usize, of: usize) -> Result<(), Error> {
+/// The same normal form with the generator W = Σ εᵐ W_{m+1} in the new variables. A function f of the old variables is then F in the new ones with
+///
+/// ```text
+/// (n+1) F_{n+1} = Σ_{0≤m≤n} {F_{n−m}; W_{m+1}},   F_0 = f
+/// ```
+///
+/// so that it costs N(N+1)/2 brackets, and the Hamiltonian as many for each of its parts, but for the last order: only the sum of its F is needed, which costs N brackets.
+/// The transform is that of −W, from the new variables to the old ones: its `inverse` takes functions of the old variables to the new ones, and `direct` the other way.
+pub(crate) fn normalize_backwards<C: Coefficient>(
+    hamiltonian: &[Polynomial<C>],
+    poisson: &Poisson,
+    order: usize,
+    solve: &Solve<'_, C>,
+    progress: &mut Progress<'_>,
+) -> Result<Normalization<C>, Error> {
+    let unperturbed = hamiltonian.first().cloned().unwrap_or_default();
+    let mut transform = LieTransform { poisson: poisson.clone(), scaled: Vec::new() };
+    // The series F of each part.
+    let mut parts = vec![vec![unperturbed.clone()]];
+    let mut normal = vec![unperturbed];
+    for n in 1..=order {
+        let mut known = hamiltonian.get(n).cloned().unwrap_or_default();
+        let pause = &mut || stop(progress(n - 1, order), n - 1, order);
+        if n == order {
+            parts = vec![joined(&parts, n)?];
+        }
+        for part in &mut parts {
+            let next = transform.next_inverse(part, pause)?;
+            known += &next;
+            part.push(next);
+        }
+        parts.push(vec![hamiltonian.get(n).cloned().unwrap_or_default()]);
+        // {h₀; W_n}/n = −image
+        let Removal { image, solution } = solve(n, &known)?;
+        transform.scaled.push(solution.scale(&C::integer(-(n as i64))));
+        for sum in [&mut known, &mut parts[0][n]] {
+            *sum -= &image;
+        }
+        normal.push(known);
+    }
+    stop(progress(order, order), order, order)?;
+    Ok(Normalization { hamiltonian: normal, transform })
+}
+
+/// A series of n coefficients whose next one is the sum of those of all parts: the one of a part of i coefficients is a sum of brackets over i.
+fn joined<C: Coefficient>(parts: &[Vec<Polynomial<C>>], n: usize) -> Result<Vec<Polynomial<C>>, Error> {
+    let mut series = vec![Polynomial::zero(); n];
+    for part in parts {
+        let weight = C::integer(n as i64);
+        for (sum, coefficient) in series.iter_mut().rev().zip(part.iter().rev()) {
+            *sum += &coefficient.scale(&weight).over(part.len() as i64)?;
+        }
+    }
+    Ok(series)
+}
+
+fn stop(flow: ControlFlow<()>, done: usize, of: usize) -> Result<(), Error> {
     if flow.is_break() { Err(Error::Interrupted { done, of }) } else { Ok(()) }
 }
 

@@ -17,7 +17,6 @@ use super::divisors::{Divisor, divisors, removal};
 use super::grid::Grid;
 use super::images::Images;
 use super::motion::{DrivenHamiltonian, PeriodicMotion};
-use super::normalization::normalize;
 use super::row::Periodic;
 use super::start::eigenvalues;
 use crate::birkhoff::Mode;
@@ -27,7 +26,7 @@ use crate::bracket::Poisson;
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::{Polynomial, Truncation};
-use crate::triangle::{LieTransform, Progress};
+use crate::triangle::{LieTransform, Progress, normalize_backwards};
 
 /// Harmonics to begin with, and the most of one phase. All are multiples of four: one time more than a multiple of eight suits vector instructions.
 const FEWEST: usize = 4;
@@ -114,7 +113,7 @@ impl DrivenForm {
         let fastest = motion.modes.iter().map(|one| one.frequency().norm()).fold(0.0, f64::max);
         let bound = options.smallest_divisor * fastest;
         let solve = |order: usize, known: &Polynomial<Periodic>| removal(&motion, bound, order, known);
-        let normal = normalize(&series, &poisson, solve, progress)?;
+        let normal = normalize_backwards(&series, &poisson, options.order, &solve, progress)?;
         let mut hamiltonian = Polynomial::zero();
         for part in &normal.hamiltonian {
             hamiltonian += &part.map(Periodic::mean);

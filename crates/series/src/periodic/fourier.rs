@@ -111,8 +111,8 @@ impl DrivenForm {
         Ok((0..self.motion.modes.len()).map(gain).collect())
     }
 
-    /// The size of what the terms of each order add to q₁, p₁, … at fixed actions: a row for each order. Terms with equal multiples of the proper angles add; different
-    /// multiples add in the mean square.
+    /// The size of what the terms of each order add to q₁, p₁, … at fixed actions: a row for each order. The moduli of terms with equal multiples of the proper angles are
+    /// added, and the size is the root of the sum of the squares of these sums.
     ///
     /// # Errors
     /// - another number of actions, or a mode that is no centre: [`Error::CountMismatch`].

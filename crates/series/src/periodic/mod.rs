@@ -1,7 +1,7 @@
 //! Normal forms of Hamiltonians with driven phases, about their periodic motion.
 //!
 //! `row` is a coefficient that is a periodic function, held at the times of a `grid`. `motion` finds the periodic motion, `frame` Floquet's frame about it, from a `start` by the
-//! matrix of `monodromy`. `form` expands the Hamiltonian there, `normalization` normalizes it with the `divisors`; `images` are the old variables in the new ones. `state` transforms states,
+//! matrix of `monodromy`. `form` expands the Hamiltonian there and normalizes it with the `divisors`; `images` are the old variables in the new ones. `state` transforms states,
 //! `fourier` gives the motion at fixed actions, `transport` expresses functions. `polynomial` is a Hamiltonian that is a polynomial; other functions implement
 //! [`DrivenHamiltonian`].
 
@@ -13,7 +13,6 @@ mod grid;
 mod images;
 mod monodromy;
 mod motion;
-mod normalization;
 mod polynomial;
 mod raw;
 mod row;

@@ -231,6 +231,17 @@ fn sizes_by_order_are_those_of_what_the_terms_of_an_order_add() -> Result<(), Er
 }
 
 #[test]
+fn sizes_add_different_multiples_in_the_square() -> Result<(), Error> {
+    // Lindstedt's series of x'' = −x − x²: x = a cos φ − a²/2 + (a²/6) cos 2φ, so that p + ix has the terms −i a²/2, (i a²/4) e^{2iφ} and −(i a²/12) e^{−2iφ}.
+    let form = form("(p^2 + x^2)/2 + x^3/3", &[("x", "p")], &[], 1)?;
+    let action = 0.005;
+    let exact = 2.0 * action * 46.0_f64.sqrt() / 12.0;
+    let size = form.sizes(&[action])?[1][0];
+    assert!((size - exact).abs() < 1e-15, "{size} {exact}");
+    Ok(())
+}
+
+#[test]
 fn a_saddle_has_its_rate_and_its_forced_motion() -> Result<(), Error> {
     for drive in [2.0, -2.0] {
         let form = form("(p^2 - x^2)/2 - x*cos(M)", &[("x", "p")], &[drive], 2)?;
