@@ -2,7 +2,7 @@
 
 make libration-reach    writes docs/data/libration-reach.csv (`libration reach 300 1`) and docs/libration-reach.png from it
 
-Each row of the file is a scene of 1,000 orbits with a tolerance of 1e-8: `difference` is (B - A)/C, `amplitude` is in degrees, `served` is 1 if the plan meets the tolerance, `reached` is 1 if some order from 2 to 12 comes to 1e-8. A cell
+Each row of the file is a scene of 1,000 orbits with a tolerance of 1e-8: `difference` is (B - A)/C, `amplitude` is in degrees, `served` is 1 if the plan meets the tolerance, `reached` is 1 if some order from 4 to 12 comes to 1e-8. A cell
 of the picture has the number of scenes that are served, of those that an order reaches, and of all.
 """
 

@@ -44,7 +44,7 @@ fn reason(scene: Scene) -> String {
 
 #[test]
 fn the_moon_keeps_its_cassini_state_and_has_the_proper_periods_of_ranging() {
-    // Days. (C − A)/B and (B − A)/C by laser ranging; 1056.1 d, 8,807 d from the node and 27,263 d by Rambaux and Williams (2011), who have degree 3 and the Sun.
+    // Days. (C − A)/B and (B − A)/C by laser ranging; 1056.16 d, 8,806.9 d from the node and 27,262.99 d by Yang et al. (2017), whose DE430 has degrees 3 and 4 and the Sun.
     let day = |period: f64| TAU / period;
     let (anomalistic, draconic, node) = (day(27.554_550), day(27.212_221), -day(6798.38));
     let attraction = 398_600.435 / 384_399.014_f64.powi(3) * 86_400.0 * 86_400.0;
@@ -105,6 +105,38 @@ fn the_strongest_body_locks_and_others_are_refused_unless_they_are_negligible() 
         "{}",
         reason(with(1e-4))
     );
+}
+
+#[test]
+fn a_swing_is_locked_to_the_same_resonance_at_every_time() {
+    // In the middle of its swing the body is nearer to 3/2 rotations an orbit, which has no torque on a circle and a small one on an ellipse.
+    for (moments, e, degrees) in
+        [([0.3, 0.8, 1.0], 0.0, 14.0), ([0.3, 0.8, 1.0], 1e-4, 14.0), ([0.55, 0.8, 1.0], 0.0, 18.0_f64)]
+    {
+        let turning = locked(moments, orbit(e, 0.5, [0.0, 0.0]), 1.0, 0.0, [degrees.to_radians(), 0.0, 0.0]);
+        let turning = turning.span(-100.0, 100.0).tolerance(1e-6);
+        let motion = verified(turning);
+        let period = motion.libration().expect("a libration").periods()[0];
+        for quarter in [0.25, 0.4, 0.75] {
+            let sample = motion.at(quarter * period).expect("a time");
+            let attitude = sample.attitude.coords.into();
+            let state = State::new(sample.time, attitude, sample.angular_velocity.into()).expect("a state");
+            let body = Body::new(moments).expect("a body");
+            let there = Scene::new(body, state).orbit(orbit(e, 0.5, [0.0, 0.0])).method(Method::Libration);
+            let other = verified(there.span(-100.0, 100.0).tolerance(1e-6));
+            assert_eq!(other.plan().resonance(), motion.plan().resonance(), "{moments:?} {e} {quarter}");
+            let amplitudes = [&motion, &other].map(|one| one.libration().expect("a libration").amplitudes()[0]);
+            assert!((amplitudes[0] / amplitudes[1] - 1.0).abs() < 1e-6, "{amplitudes:?} {moments:?} {e} {quarter}");
+        }
+    }
+}
+
+#[test]
+fn a_short_span_is_compared_over_itself_and_a_past_one_in_the_past() {
+    for (start, stop) in [(0.0, 3.0 * TAU), (-200.0 * TAU, 0.0)] {
+        let scene = locked([0.55, 0.8, 1.0], orbit(0.0, 0.4, [0.0, 0.0]), 1.0, 0.0, [0.08, 0.05, 0.04]);
+        verified(scene.span(start, stop).tolerance(1e-8));
+    }
 }
 
 #[test]

@@ -122,7 +122,7 @@ def lunar_spectrum():
 
 def test_moon_of_degree_two_has_the_proper_periods_of_an_integration(lunar_spectrum):
     found = moon(1e-5, span=(0, 1000 * MONTH), tolerance=1e-4, method="libration").libration.periods
-    # The series in e converge slowest for the wobble, whose rate is a thousandth of n.
+    # The fit of the wobble, whose rate is a thousandth of n, is the least accurate.
     assert (np.abs(found / lunar_spectrum - 1) < [2e-5, 3e-6, 1.5e-3]).all(), found / lunar_spectrum - 1
 
 
@@ -203,6 +203,31 @@ def test_terms_of_a_precessing_orbit_have_a_fifth_multiple():
     motion = scene(attitude=angles(0.001, 0, 0), orbit=orbit, orbits=100, tolerance=1e-3).solve()
     assert motion.verify().holds
     assert {len(term.multiples) for term in motion.libration.terms()} == {5}
+
+
+@pytest.mark.parametrize(("resonance", "e", "rates"), [(1.0, 0.05, (-2e-4, 1e-4)), (1.5, 0.1, (-2e-4, 0.0)), (1.0, 0.0, (-2e-4, 1e-4))])
+def test_terms_of_all_three_angles_add_up_to_the_attitude_on_a_precessing_orbit(resonance, e, rates):
+    node_rate, pericentre_rate = rates
+    inclination, node, argument = 0.1, 0.3, 0.8
+    orbit = andoyer.Orbit(1.0, e, inclination=inclination, node=node, argument_of_pericentre=argument, node_rate=node_rate, pericentre_rate=pericentre_rate)
+
+    def frame(times, obliquity):
+        turn = resonance * times + argument + pericentre_rate * times
+        zeros = np.zeros_like(times)
+        return Rotation.from_euler("ZXZ", np.transpose([node + node_rate * times, zeros + inclination + obliquity, turn]))
+
+    attitude = frame(np.zeros(1), 0.0)[0] * Rotation.from_euler("ZYX", [0.01, 0.004, 0.003])
+    spin = attitude.inv().apply((frame(np.zeros(1), 0.0)[0]).apply([0, 0, resonance + pericentre_rate + node_rate * math.cos(inclination)]))
+    body = andoyer.Body([0.9985, 0.9995, 1.0])
+    motion = andoyer.Scene(body, attitude.as_quat(), spin, orbit=orbit, span=(0, 600), tolerance=1e-5, method="libration").solve()
+    libration, times = motion.libration, np.linspace(0, 600, 40)
+    seen = (frame(times, libration.obliquity).inv() * motion.rotation(times)).as_euler("ZYX").T
+    for name, angle in zip(("longitude", "pole-1", "pole-2"), seen, strict=True):
+        terms = [term for term in libration.terms() if term.angle == name]
+        sums = sum(term.amplitude * np.sin(term.phase + (TURN * times / term.period if math.isfinite(term.period) else 0)) for term in terms)
+        assert np.abs(angle - sums).max() < 1e-9, name
+    assert libration.mean_motion == 1.0
+    assert 0 < libration.residual < motion.plan.error_bound
 
 
 def test_auto_takes_the_libration_over_many_orbits_only():

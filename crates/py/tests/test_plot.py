@@ -292,6 +292,12 @@ def test_picture_of_a_libration_is_drawn_with_labels_and_nothing_cut_off(librati
     assert not [str(warning.message) for warning in recwarn]
 
 
+def test_libration_beside_a_negligible_body_is_drawn(libration):
+    far = andoyer.Orbit(1e-6, 0.1, attraction=1e-20)
+    beside = andoyer.Scene(libration.scene.body, libration.scene.attitude, [0, 0, 2e-3], epoch=50.0, orbit=(libration.scene.orbit, far), span=(50, 3e4), tolerance=1e-6, method="libration")
+    assert plot.libration_spectrum(beside.solve()).get_xlabel() == "period [orbits]"
+
+
 def test_angles_of_a_libration_are_those_of_the_attitude(libration):
     times = np.linspace(50, 2e5, 40)
     orbit, epoch = libration.scene.orbit, libration.scene.epoch

@@ -107,8 +107,8 @@ fn between(low: f64, high: f64, x: f64) -> f64 {
 /// What makes a locked scene: numbers from 0 to 1.
 type Draw = [f64; 20];
 
-/// A locked scene of the ranges: resonance, shape, eccentricity, amplitudes, a tilted orbit, with node and pericentre that move if `precessing`, and any
-/// epoch. None if the forced libration is above 3 degrees.
+/// A locked scene: resonance, shape, eccentricity, amplitudes, the longitude at any phase of its swing, a tilted orbit, with node and pericentre that move if
+/// `precessing`, and any epoch. None if the forced libration is above 3 degrees.
 fn drawn(draw: &Draw, precessing: bool) -> Option<Scene> {
     let mut numbers = draw.iter().copied();
     let mut random = || numbers.next().unwrap_or(0.5);
@@ -122,7 +122,7 @@ fn drawn(draw: &Draw, precessing: bool) -> Option<Scene> {
     if forced > 3.0_f64.to_radians() || a + b < 1.0 {
         return None;
     }
-    let angles = [random(), random(), random()].map(|x| amplitude * (2.0 * x - 1.0) / 1.7);
+    let widest = [random(), random(), random()].map(|x| amplitude * (2.0 * x - 1.0) / 1.7);
     let (inclination, node, argument) = (3.0 * random(), 6.0 * random(), 6.0 * random());
     let n = between(1e-7, 1e3, random());
     let epoch = 1e4 * (random() - 0.5) / n;
@@ -138,16 +138,21 @@ fn drawn(draw: &Draw, precessing: bool) -> Option<Scene> {
         let near = |state: &&CassiniState| state.stable && state.obliquity.abs() < 0.5;
         obliquity = states.iter().find(near)?.obliquity;
     }
+    let tolerance = between(1e-10, 1e-4, random());
+    // Hansen's coefficient of the resonance to its first order in e.
+    let torque = [1.0, 3.5 * e, 8.5 * e * e][twice as usize - 2];
+    let (sine, cosine) = (TURN * random()).sin_cos();
+    let (angles, swing) =
+        ([widest[0] * cosine, widest[1], widest[2]], -(3.0 * difference * torque).sqrt() * widest[0] * sine);
     let inclination = orbit.elements()[3] + obliquity;
     let [z, x] = [Vector3::z_axis(), Vector3::x_axis()]
         .map(|axis| move |angle: f64| UnitQuaternion::from_axis_angle(&axis, angle));
     let turn = argument + rates[1] * epoch + resonance * n * epoch;
     let frame = z(node + rates[0] * epoch) * x(inclination) * z(turn);
     let attitude = frame * UnitQuaternion::from_euler_angles(angles[2], angles[1], angles[0]);
-    let rate = resonance * n + rates[1] + rates[0] * inclination.cos();
+    let rate = (resonance + swing) * n + rates[1] + rates[0] * inclination.cos();
     let spin = attitude.inverse() * (frame * Vector3::new(0.0, 0.0, rate));
     let state = State::new(epoch, attitude.coords.into(), spin.into()).ok()?;
-    let tolerance = between(1e-10, 1e-4, random());
     let scene = Scene::new(Body::new([a, b, 1.0]).ok()?, state).orbit(orbit);
     Some(scene.span(epoch, epoch + 1000.0 * TURN / n).tolerance(tolerance))
 }

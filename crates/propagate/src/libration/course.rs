@@ -89,11 +89,6 @@ impl FourierMotion {
         start + self.rate(multiples) * elapsed
     }
 
-    /// The rates of M and α, in units of n.
-    pub(crate) fn rates_of_orbit(&self) -> [f64; 2] {
-        self.rates
-    }
-
     /// M and α a time after the epoch, in units of 1/n.
     pub(crate) fn orbit_phases(&self, elapsed: f64) -> [f64; 2] {
         [0, 1].map(|phase| self.start[phase] + self.rates[phase] * elapsed)

@@ -13,7 +13,7 @@ use crate::numerics::phase::Phase;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
 
-/// Largest number of rotations in two orbits: 7/2 rotations an orbit, and one more.
+/// Largest number of rotations in two orbits.
 const MOST_IN_TWO: i32 = 8;
 
 /// A Hansen coefficient of the resonance below this is rounding.
@@ -48,35 +48,56 @@ pub(crate) struct Lock {
 impl Lock {
     /// The lock of a scene about principal axes, or the reason why it has none.
     pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
-        let (orbit, ratio) = strongest(scene.asked_disturbing())?;
+        let (orbit, others_torque) = strongest(scene.asked_disturbing())?;
         let (body, moments) = sorted(scene.body().moments());
         let [a, b, c] = moments;
         if a == b {
             return Err("A = B: no torque turns the body about its orbit's normal".to_owned());
         }
-        let (state, n) = (scene.state(), orbit.mean_motion());
-        let [node_rate, pericentre_rate] = orbit.rates().map(|rate| rate / n);
-        let normal = (state.attitude.inverse() * orbit.axes_at(state.epoch)[2]).dot(&state.angular_velocity);
-        let spin = state.angular_velocity.norm().copysign(normal) / n;
-        let spin = spin - pericentre_rate - node_rate * orbit.elements()[3].cos();
-        let twice = (2.0 * spin).round();
-        if !(1.0..=f64::from(MOST_IN_TWO)).contains(&twice) {
+        let spin = spin(scene, orbit, body * Vector3::z());
+        let nearest = (2.0 * spin).round();
+        if !(1.0..=f64::from(MOST_IN_TWO)).contains(&nearest) {
             return Err(format!("{spin:.3} rotations an orbit are near no resonance from 1/2 to {}", MOST_IN_TWO / 2));
         }
-        let precession = PlaneMotion { phase_rate: 0.0, spin: 0.0, sideways: 0.0, obliquity: 0.0, argument: None };
-        let mut shape = LockedShape {
-            moments: [a / c, b / c, 1.0],
-            eccentricity: orbit.eccentricity(),
-            attraction: orbit.strength() / (n * n),
-            twice: twice as i32,
-            precession,
+        let of = |twice: i32| Self::of_resonance(scene, orbit, [a / c, b / c, 1.0], body, twice);
+        // A body that swings fast is far from its resonance in the middle of its swing.
+        let swing = 3.0 * orbit.strength() / orbit.mean_motion().powi(2) * (b - a) / c;
+        let reached = |twice: &i32| {
+            (1..=MOST_IN_TWO).contains(twice)
+                && (spin - f64::from(*twice) / 2.0).powi(2) * (1.0 - orbit.eccentricity()).powi(3) < swing
         };
-        if shape.hansen(shape.twice)[1].abs() < NO_TORQUE {
-            return Err(format!("the resonance {} has no torque on this orbit", in_words(shape.twice)));
+        let nearest = nearest as i32;
+        let others = [nearest - 1, nearest + 1].into_iter().filter(reached).filter_map(|twice| of(twice).ok());
+        let first = of(nearest);
+        let mut lock =
+            first.iter().cloned().chain(others).min_by(|a, b| a.swing().total_cmp(&b.swing())).map_or(first, Ok)?;
+        let torque = lock.shape.attraction * lock.mean_motion.powi(2) * lock.shape.hansen(lock.shape.twice)[1].abs();
+        lock.others = moved_by_others(scene, others_torque / torque, lock.mean_motion)?;
+        Ok(lock)
+    }
+
+    /// The square of the amplitude of a pendulum in the longitude, with its state \[rad²\].
+    fn swing(&self) -> f64 {
+        let LockedShape { moments: [a, b, _], attraction, twice, .. } = self.shape;
+        let [longitude, momentum, ..] = self.state;
+        longitude.powi(2) + momentum.powi(2) / (3.0 * attraction * (b - a) * self.shape.hansen(twice)[1].abs())
+    }
+
+    fn of_resonance(
+        scene: &Scene,
+        orbit: &Orbit,
+        moments: [f64; 3],
+        body: UnitQuaternion<f64>,
+        twice: i32,
+    ) -> Result<Self, String> {
+        let precession = PlaneMotion { phase_rate: 0.0, spin: 0.0, sideways: 0.0, obliquity: 0.0, argument: None };
+        let attraction = orbit.strength() / orbit.mean_motion().powi(2);
+        let mut shape = LockedShape { moments, eccentricity: orbit.eccentricity(), attraction, twice, precession };
+        if shape.hansen(twice)[1].abs() < NO_TORQUE {
+            return Err(format!("the resonance {} has no torque on this orbit", in_words(twice)));
         }
         shape.precession = precession_of(scene, orbit, &shape, body);
-        let others = moved_by_others(scene, ratio / shape.hansen(shape.twice)[1].abs(), n)?;
-        Ok(Self { others, ..Self::about(scene, orbit, shape, body)? })
+        Self::about(scene, orbit, shape, body)
     }
 
     fn about(scene: &Scene, orbit: &Orbit, shape: LockedShape, body: UnitQuaternion<f64>) -> Result<Self, String> {
@@ -123,7 +144,16 @@ impl Lock {
     }
 }
 
-/// The orbit with the largest mean torque, and the largest torque of the other bodies over it.
+/// Rotations an orbit about an axis of the body, in the frame that turns with the pericentre.
+fn spin(scene: &Scene, orbit: &Orbit, axis: Vector3<f64>) -> f64 {
+    let (state, n) = (scene.state(), orbit.mean_motion());
+    let [node_rate, pericentre_rate] = orbit.rates();
+    let normal = (state.attitude.inverse() * orbit.axes_at(state.epoch)[2]).dot(&state.angular_velocity);
+    let spin = state.angular_velocity.dot(&axis).abs().copysign(normal);
+    (spin - pericentre_rate - node_rate * orbit.elements()[3].cos()) / n
+}
+
+/// The orbit with the largest mean torque, and the largest attraction over the cube of the distance of the other bodies.
 fn strongest(bodies: &[DisturbingBody]) -> Result<(&Orbit, f64), String> {
     let orbits: Result<Vec<&Orbit>, String> = bodies
         .iter()
@@ -140,7 +170,7 @@ fn strongest(bodies: &[DisturbingBody]) -> Result<(&Orbit, f64), String> {
     let first = orbits.iter().copied().max_by(|a, b| mean(a).total_cmp(&mean(b)));
     let first = first.ok_or("there is no orbit")?;
     let others = orbits.iter().filter(|other| !std::ptr::eq(**other, first)).map(|other| largest(other));
-    Ok((first, others.sum::<f64>() / mean(first)))
+    Ok((first, others.sum()))
 }
 
 /// A bound of the angle by which the other bodies move the body over the span: their torque over that of the lock, which also changes frequencies.
@@ -151,7 +181,10 @@ fn moved_by_others(scene: &Scene, ratio: f64, n: f64) -> Result<f64, String> {
     let moved = if ratio == 0.0 { 0.0 } else { ratio * (1.0 + n * longest) };
     if moved > scene.asked_tolerance() / 2.0 {
         let bodies = scene.asked_disturbing().len();
-        return Err(format!("{bodies} bodies act: the torque of the others is up to {ratio:.1e} of that of the lock"));
+        let span = if longest.is_finite() { "" } else { ", and there is no span" };
+        return Err(format!(
+            "{bodies} bodies act: the torque of the others is up to {ratio:.1e} of that of the lock{span}"
+        ));
     }
     Ok(moved)
 }

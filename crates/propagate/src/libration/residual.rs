@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use andoyer_series::num_complex::Complex;
-use andoyer_series::periodic::DrivenForm;
+use andoyer_series::periodic::{DrivenForm, Harmonic};
 
 use super::course::FourierMotion;
 use super::energy::{Drive, energy};
@@ -15,9 +15,10 @@ const ORBITS: usize = 8;
 const TIMES: usize = 8;
 /// The step of a derivative by an imaginary number, which has no rounding error.
 const STEP: f64 = 1e-100;
-/// Largest sum of multiples of the proper angles, and largest multiples of M and α, whose divisors count.
+/// Largest sum of multiples of the proper angles whose divisors count.
 const LOW: i64 = 2;
-const MOST: i32 = 8;
+/// A harmonic with a smaller part in a mode than this part of its amplitudes does not move the mode.
+const PART: f64 = 1e-9;
 /// A smaller divisor than that of the terms that turn fast in a mode.
 const FAST: f64 = 0.5;
 
@@ -33,6 +34,9 @@ pub(super) fn residual(form: &DrivenForm, lock: &Lock, course: &FourierMotion, l
         for (k, seen_at) in course.at_even_times(start, step, TIMES).iter().enumerate() {
             let elapsed = start + step * k as f64;
             let left = missing(lock, course, elapsed, seen_at);
+            if left.iter().any(|x| !x.is_finite()) {
+                return f64::INFINITY;
+            }
             let [change, inverse] = form.frame(&lock.shape.driven(course.orbit_phases(elapsed)));
             for (mode, mean) in means.iter_mut().enumerate() {
                 let left: Complex<f64> = inverse[2 * mode + 1].iter().zip(left).map(|(a, b)| a * b).sum();
@@ -46,22 +50,24 @@ pub(super) fn residual(form: &DrivenForm, lock: &Lock, course: &FourierMotion, l
         }
         slow.iter_mut().zip(means).for_each(|(most, mean)| *most = most.max(mean.norm()));
     }
-    let growth = |mode: usize| longest.min(divisor(course, lock.shape.is_tilted(), mode).recip());
+    let [_, inverse] = form.frame(&lock.shape.driven(course.orbit_phases(0.0)));
+    let growth = |mode: usize| longest.min(divisor(course, &inverse[2 * mode + 1], mode).recip());
     let error = |mode: usize| slow[mode] * growth(mode) + fast[mode] / FAST;
     seen.iter().map(|angle| (0..3).map(|mode| error(mode) * angle[mode]).sum::<f64>()).sum()
 }
 
-/// The smallest divisor of a mode: its frequency, or its difference from low multiples of the others and from those of a precessing orbit.
-fn divisor(course: &FourierMotion, tilted: bool, mode: usize) -> f64 {
+/// The smallest divisor of a mode: its frequency, or the difference from it of the rates of the harmonics with low multiples that have a part in the mode.
+fn divisor(course: &FourierMotion, mode_of: &[Complex<f64>], mode: usize) -> f64 {
     let own = course.frequencies[mode].abs();
-    let low = |multiples: &[i64]| (1..=LOW).contains(&multiples[..3].iter().map(|k| k.abs()).sum::<i64>());
-    let others = course.harmonics.iter().map(|harmonic| &harmonic.multiples);
-    let others = others.filter(|multiples| low(multiples) && (0..3).any(|k| k != mode && multiples[k] != 0));
-    let least = others.map(|multiples| (course.rate(multiples).abs() - own).abs()).fold(own, f64::min);
-    let most = if tilted { MOST } else { 0 };
-    let [anomaly, node] = course.rates_of_orbit();
-    let forced = (-most..=most).flat_map(|j| (-most..=most).map(move |k| f64::from(j) * anomaly + f64::from(k) * node));
-    forced.map(|rate| (rate.abs() - own).abs()).fold(least, f64::min)
+    let size = |values: &[Complex<f64>]| values.iter().map(|c| c.norm()).sum::<f64>();
+    let counts = |Harmonic { multiples, amplitudes }: &&Harmonic| {
+        let moduli: Vec<i64> = multiples.iter().map(|k| k.abs()).collect();
+        let is_own = moduli.iter().sum::<i64>() == 1 && moduli[mode] == 1;
+        let part: Complex<f64> = mode_of.iter().zip(amplitudes).map(|(a, b)| a * b).sum();
+        moduli[..3].iter().sum::<i64>() <= LOW && !is_own && part.norm() > PART * size(mode_of) * size(amplitudes)
+    };
+    let rates = course.harmonics.iter().filter(counts).map(|harmonic| course.rate(&harmonic.multiples));
+    rates.map(|rate| (rate.abs() - own).abs()).fold(own, f64::min)
 }
 
 /// ẋ − {x; H} of the six variables, from x and ẋ.

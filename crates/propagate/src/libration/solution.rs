@@ -116,7 +116,7 @@ fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libra
         let ends = stays
             || convergence.is_over()
             || (wanted.strict && convergence.will_miss(highest - order, wanted.tolerance));
-        if best.as_ref().is_none_or(|(_, best)| convergence.error() < best.error()) {
+        if best.as_ref().is_none_or(|(_, best)| convergence.error().total_cmp(&best.error()).is_lt()) {
             best = Some((Arc::clone(&form), convergence));
         }
         // A further order takes some seconds.

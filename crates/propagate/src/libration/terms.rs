@@ -78,6 +78,11 @@ impl Libration {
         self.lock.shape.precession.obliquity
     }
 
+    /// The mean motion of the orbit that locks the body [rad per unit of time].
+    pub fn mean_motion(&self) -> f64 {
+        self.lock.mean_motion
+    }
+
     /// The number of phases of the terms: the three proper angles and M, and α if the orbit precesses.
     pub fn phases_of_terms(&self) -> usize {
         3 + if self.lock.shape.is_tilted() { 2 } else { 1 }

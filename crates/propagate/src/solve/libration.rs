@@ -20,8 +20,8 @@ use crate::torque_free::error_budget::DEFAULT_ROTATIONS;
 use crate::torque_free::polhode::Polhode;
 use crate::torque_free::series::tables::SeriesTables;
 
-/// Orbits over which a form is compared with an integration: on a fixed orbit and on one that precesses, whose slow phases take hundreds of orbits and whose form costs
-/// some seconds; at most the span, but for the first number.
+/// Orbits over which a motion is compared with an integration, at most the span: where it meets its tolerance on a fixed orbit, and elsewhere. On an orbit that precesses the
+/// slow phases take hundreds of orbits; and the estimate of a series that misses its tolerance can be far too small, if the missing terms belong to a resonance.
 const CHECKED: [f64; 2] = [30.0, 1000.0];
 /// Times at which they are compared.
 const TIMES: usize = 32;
@@ -30,13 +30,18 @@ const SAFETY: f64 = 2.0;
 /// The least tolerance of this integration \[rad\].
 const FINEST: f64 = 1e-12;
 
-/// The libration of a scene about principal axes. Mode and frequencies are those of the free motion at the epoch.
+/// The libration of a scene about principal axes.
 ///
 /// # Errors
 /// [`Error::NoLibration`] with the reason, and [`Error::Stopped`].
 pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
+    let lock = Lock::new(&scene).map_err(|reason| Error::NoLibration { reason })?;
+    of_lock(scene, lock, tables, stop)
+}
+
+/// The libration of a scene with its lock. Mode and frequencies are those of the free motion at the epoch.
+fn of_lock(scene: Scene, lock: Lock, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
     let no = |reason| Error::NoLibration { reason };
-    let lock = Lock::new(&scene).map_err(no)?;
     let (n, epoch, precesses) = (lock.mean_motion, scene.state().epoch, lock.half_node.is_some());
     let far = DEFAULT_ROTATIONS * TAU;
     let reach = scene.asked_span().map_or([-far, far], |(start, stop)| [start, stop].map(|time| n * (time - epoch)));
@@ -56,20 +61,21 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> 
     plan.resonance = Some(libration.twice());
     let trajectory = Trajectory::Forced(Arc::new(LibrationEvaluator::new(libration)));
     let mut motion = Motion { scene, plan, trajectory, ..free };
-    let longest = reach[0].abs().max(reach[1].abs());
-    let checked = if precesses { (longest / TAU).clamp(CHECKED[0], CHECKED[1]) } else { CHECKED[0] } * TAU;
-    let seen = departure(&motion, checked / n, tables, stop)?;
+    let farthest = if -reach[0] > reach[1] { reach[0] } else { reach[1] };
+    let orbits = CHECKED[usize::from(precesses || !motion.plan.meets_tolerance())];
+    let growth = (farthest.abs() / (orbits * TAU)).max(1.0);
+    let seen = departure(&motion, farthest / growth / n, tables, stop)?;
     if seen > motion.plan.error_bound {
-        motion.plan.error_bound = (SAFETY * seen * (longest / checked).max(1.0)).min(std::f64::consts::PI);
+        motion.plan.error_bound = (SAFETY * seen * growth).min(std::f64::consts::PI);
     }
     Ok(motion)
 }
 
-/// How far a libration departs from an integration over a short time, beyond the bound of the integration.
+/// How far a libration departs from an integration over a time from the epoch, beyond the bound of the integration.
 fn departure(motion: &Motion, time: f64, tables: &SeriesTables, stop: &AtomicBool) -> Result<f64, Error> {
     let epoch = motion.scene.state().epoch;
     let tolerance = (motion.plan.error_bound / 10.0).max(FINEST);
-    let short = motion.scene.clone().span(epoch, epoch + time).tolerance(tolerance);
+    let short = motion.scene.clone().span(epoch + time.min(0.0), epoch + time.max(0.0)).tolerance(tolerance);
     let integration = integrated::motion(short, tables, String::new(), stop)?;
     let (mut most, count) = (0.0_f64, TIMES);
     for k in 1..=count {
@@ -88,14 +94,12 @@ pub(super) fn serving(
     tables: &SeriesTables,
     stop: &AtomicBool,
 ) -> Result<Result<Motion, Option<String>>, Error> {
-    if Lock::new(scene).is_err() {
-        return Ok(Err(None));
-    }
+    let Ok(lock) = Lock::new(scene) else { return Ok(Err(None)) };
     let why = |motion: &Motion| {
         let bound = bound_in_words(motion.plan.error_bound);
         motion.libration().map(|libration| format!("its error bound is {bound}; {}", libration.limit()))
     };
-    Ok(match motion(scene.clone(), tables, stop) {
+    Ok(match of_lock(scene.clone(), lock, tables, stop) {
         Err(Error::Stopped) => return Err(Error::Stopped),
         Err(Error::NoLibration { reason }) => Err(Some(reason)),
         Err(error) => Err(Some(in_ascii(&error.to_string()))),

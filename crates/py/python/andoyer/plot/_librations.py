@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from andoyer._core import Libration, LibrationTerm, Motion, Orbit
+from andoyer._core import Libration, LibrationTerm, Motion
 from andoyer._extra import extra
 from andoyer._refusal import refusal
 from andoyer.output.span import within_span
@@ -148,11 +148,11 @@ def libration_summary(motion: Motion, times: ArrayLike | None = None) -> Figure:
 
 def _locked(motion: Motion) -> tuple[Libration, float]:
     """The libration of a motion, and the period of the orbit."""
-    libration, orbit = motion.libration, motion.scene.orbit
-    if libration is None or not isinstance(orbit, Orbit):
+    libration = motion.libration
+    if libration is None:
         advice = f'is solved by method "{motion.plan.method}": a libration needs method="libration"'
         raise refusal("motion", motion.plan.method, "libration", advice)
-    return libration, 2 * math.pi / orbit.mean_motion
+    return libration, 2 * math.pi / libration.mean_motion
 
 
 def _angles(motion: Motion, times: ArrayLike | None, axes: Axes, names: list[str]) -> None:
