@@ -294,7 +294,16 @@ def test_picture_of_a_libration_is_drawn_with_labels_and_nothing_cut_off(librati
 
 def test_libration_beside_a_negligible_body_is_drawn(libration):
     far = andoyer.Orbit(1e-6, 0.1, attraction=1e-20)
-    beside = andoyer.Scene(libration.scene.body, libration.scene.attitude, [0, 0, 2e-3], epoch=50.0, orbit=(libration.scene.orbit, far), span=(50, 3e4), tolerance=1e-6, method="libration")
+    beside = andoyer.Scene(
+        libration.scene.body,
+        libration.scene.attitude,
+        [0, 0, 2e-3],
+        epoch=50.0,
+        orbit=(libration.scene.orbit, far),
+        span=(50, 3e4),
+        tolerance=1e-6,
+        method="libration",
+    )
     assert plot.libration_spectrum(beside.solve()).get_xlabel() == "period [orbits]"
 
 

@@ -48,32 +48,34 @@ pub(crate) struct Lock {
 impl Lock {
     /// The lock of a scene about principal axes, or the reason why it has none.
     pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
-        let (orbit, others_torque) = strongest(scene.asked_disturbing())?;
+        let (orbit, others) = strongest(scene.asked_disturbing())?;
         let (body, moments) = sorted(scene.body().moments());
         let [a, b, c] = moments;
         if a == b {
             return Err("A = B: no torque turns the body about its orbit's normal".to_owned());
         }
         let spin = spin(scene, orbit, body * Vector3::z());
-        let nearest = (2.0 * spin).round();
-        if !(1.0..=f64::from(MOST_IN_TWO)).contains(&nearest) {
-            return Err(format!("{spin:.3} rotations an orbit are near no resonance from 1/2 to {}", MOST_IN_TWO / 2));
-        }
-        let of = |twice: i32| Self::of_resonance(scene, orbit, [a / c, b / c, 1.0], body, twice);
-        // A body that swings fast is far from its resonance in the middle of its swing.
-        let swing = 3.0 * orbit.strength() / orbit.mean_motion().powi(2) * (b - a) / c;
-        let reached = |twice: &i32| {
-            (1..=MOST_IN_TWO).contains(twice)
-                && (spin - f64::from(*twice) / 2.0).powi(2) * (1.0 - orbit.eccentricity()).powi(3) < swing
+        let nearest = (2.0 * spin).round() as i32;
+        let orders = 1..=MOST_IN_TWO;
+        let of = |twice: i32| Self::of_resonance(scene, (orbit, others), ([a / c, b / c, 1.0], body), twice);
+        let mut found = if orders.contains(&nearest) {
+            of(nearest)
+        } else {
+            Err(format!("{spin:.3} rotations an orbit are near no resonance from 1/2 to {}", MOST_IN_TWO / 2))
         };
-        let nearest = nearest as i32;
-        let others = [nearest - 1, nearest + 1].into_iter().filter(reached).filter_map(|twice| of(twice).ok());
-        let first = of(nearest);
-        let mut lock =
-            first.iter().cloned().chain(others).min_by(|a, b| a.swing().total_cmp(&b.swing())).map_or(first, Ok)?;
-        let torque = lock.shape.attraction * lock.mean_motion.powi(2) * lock.shape.hansen(lock.shape.twice)[1].abs();
-        lock.others = moved_by_others(scene, others_torque / torque, lock.mean_motion)?;
-        Ok(lock)
+        // In the middle of a swing a body can be nearer to the rate of the next resonance than to its own.
+        let fastest = 3.0 * orbit.strength() / orbit.mean_motion().powi(2) * (b - a) / c;
+        for twice in [nearest.saturating_sub(1), nearest.saturating_add(1)] {
+            let swings = (spin - f64::from(twice) / 2.0).powi(2) * (1.0 - orbit.eccentricity()).powi(3) < fastest;
+            if orders.contains(&twice)
+                && swings
+                && let Ok(other) = of(twice)
+                && found.as_ref().map_or(true, |lock| other.swing() < lock.swing())
+            {
+                found = Ok(other);
+            }
+        }
+        found
     }
 
     /// The square of the amplitude of a pendulum in the longitude, with its state \[rad²\].
@@ -83,21 +85,23 @@ impl Lock {
         longitude.powi(2) + momentum.powi(2) / (3.0 * attraction * (b - a) * self.shape.hansen(twice)[1].abs())
     }
 
+    /// That of a resonance: of the orbit, beside the torque of the others; the sorted moments, and their axes in the body.
     fn of_resonance(
         scene: &Scene,
-        orbit: &Orbit,
-        moments: [f64; 3],
-        body: UnitQuaternion<f64>,
+        (orbit, others): (&Orbit, f64),
+        (moments, body): ([f64; 3], UnitQuaternion<f64>),
         twice: i32,
     ) -> Result<Self, String> {
         let precession = PlaneMotion { phase_rate: 0.0, spin: 0.0, sideways: 0.0, obliquity: 0.0, argument: None };
         let attraction = orbit.strength() / orbit.mean_motion().powi(2);
         let mut shape = LockedShape { moments, eccentricity: orbit.eccentricity(), attraction, twice, precession };
-        if shape.hansen(twice)[1].abs() < NO_TORQUE {
+        let torque = shape.hansen(twice)[1].abs();
+        if torque < NO_TORQUE {
             return Err(format!("the resonance {} has no torque on this orbit", in_words(twice)));
         }
+        let others = moved_by_others(scene, others / (orbit.strength() * torque), orbit.mean_motion())?;
         shape.precession = precession_of(scene, orbit, &shape, body);
-        Self::about(scene, orbit, shape, body)
+        Ok(Self { others, ..Self::about(scene, orbit, shape, body)? })
     }
 
     fn about(scene: &Scene, orbit: &Orbit, shape: LockedShape, body: UnitQuaternion<f64>) -> Result<Self, String> {
