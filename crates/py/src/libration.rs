@@ -61,14 +61,15 @@ impl Libration {
         array::constant(py, &self.0.phases())
     }
 
-    /// The angle from the orbit's normal to axis 3 of the frame in which the body librates, in rad: the obliquity of a Cassini state, positive away from
-    /// inertial axis 3; 0 if the node is fixed.
+    /// The obliquity of a Cassini state, from the orbit's normal to axis 3 of the frame in which the body librates, in rad; 0 if the node is fixed.
+    ///
+    /// Positive away from inertial axis 3.
     #[getter]
     fn obliquity(&self) -> f64 {
         self.0.obliquity()
     }
 
-    /// What the series leaves in the equations of motion, as an angle in rad; it is part of `plan.error_bound`.
+    /// What the series leaves in the equations of motion, as an angle in rad; it is part of the error bound.
     #[getter]
     fn residual(&self) -> f64 {
         self.0.residual()
@@ -115,8 +116,9 @@ pub(crate) struct LibrationTerm(terms::LibrationTerm, usize);
 
 #[pymethods]
 impl LibrationTerm {
-    /// Multiples of the three proper angles and of the mean anomaly M, four integers; if the node moves, a fifth one of the angle r M + ω + ψ₀ from the node. If the
-    /// pericentre is fixed then, this angle goes with r M, and the fifth is 0 or 1.
+    /// Multiples of the three proper angles and of the mean anomaly M; if the node moves, a fifth one of the angle r M + ω + ψ₀ from the node.
+    ///
+    /// If the pericentre is fixed then, this angle goes with r M, and the fifth is 0 or 1.
     #[getter]
     fn multiples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, self.multiples_of_phases())

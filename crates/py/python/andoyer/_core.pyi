@@ -498,10 +498,10 @@ class Libration:
         """The phase of this angle at the epoch, in rad, shape (3,); 0 for a mode without amplitude."""
     @property
     def obliquity(self) -> float:
-        """The angle from the orbit's normal to axis 3 of the frame in which the body librates, in rad: the obliquity of a Cassini state, positive away from inertial axis 3; 0 if the node is fixed."""
+        """The obliquity of a Cassini state, from the orbit's normal to axis 3 of the frame in which the body librates, in rad; 0 if the node is fixed."""
     @property
     def residual(self) -> float:
-        """What the series leaves in the equations of motion, as an angle in rad; it is part of ``plan.error_bound``."""
+        """What the series leaves in the equations of motion, as an angle in rad; it is part of the error bound."""
     @property
     def mean_motion(self) -> float:
         """The mean motion of the orbit that locks the body, in rad per unit of time."""
@@ -516,7 +516,7 @@ class LibrationTerm:
 
     @property
     def multiples(self) -> tuple[int, ...]:
-        """Multiples of the three proper angles and of the mean anomaly M, four integers; if the node moves, a fifth one of the angle r M + ω + ψ₀ from the node. If the pericentre is fixed then, this angle goes with r M, and the fifth is 0 or 1."""
+        """Multiples of the three proper angles and of the mean anomaly M; if the node moves, a fifth one of the angle r M + ω + ψ₀ from the node."""
     @property
     def period(self) -> float:
         """The period in the unit of time, positive also where the rate of the multiples is negative; infinite for a constant."""
