@@ -8,12 +8,13 @@ use andoyer_propagate::{Body, Error, Method, Motion, Orbit, Scene, State};
 
 /// A scene about angles ψ, θ, φ from a frame that turns with the node, tilted to the orbit by `obliquity`, with the rates of that frame.
 fn locked(moments: [f64; 3], orbit: Orbit, resonance: f64, obliquity: f64, angles: [f64; 3]) -> Scene {
-    let [n, _, _, inclination, node, argument, _] = orbit.elements();
+    let [n, _, pericentre, inclination, node, argument, _] = orbit.elements();
     let [node_rate, pericentre_rate] = orbit.rates();
     let about = |axis: usize, angle: f64| {
         UnitQuaternion::from_axis_angle(&[Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()][axis], angle)
     };
-    let frame = about(2, node) * about(0, inclination + obliquity) * about(2, argument);
+    let turn = argument - resonance * n * pericentre;
+    let frame = about(2, node) * about(0, inclination + obliquity) * about(2, turn);
     let attitude = frame * UnitQuaternion::from_euler_angles(angles[2], angles[1], angles[0]);
     let rate = resonance * n + pericentre_rate + node_rate * (inclination + obliquity).cos();
     let spin = attitude.inverse() * (frame * Vector3::new(0.0, 0.0, rate));
@@ -132,11 +133,14 @@ fn a_swing_is_locked_to_the_same_resonance_at_every_time() {
 }
 
 #[test]
-fn a_short_span_is_compared_over_itself_and_a_past_one_in_the_past() {
-    for (start, stop) in [(0.0, 3.0 * TAU), (-200.0 * TAU, 0.0)] {
-        let scene = locked([0.55, 0.8, 1.0], orbit(0.0, 0.4, [0.0, 0.0]), 1.0, 0.0, [0.08, 0.05, 0.04]);
-        verified(scene.span(start, stop).tolerance(1e-8));
-    }
+fn a_libration_that_misses_its_tolerance_is_compared_over_the_span() {
+    // Hill climbing found it: a resonance of high order, which the terms do not foretell. Over 30 orbits the error is small.
+    let orbit =
+        Orbit::new(1.0, 0.118_089_183_842_926_15).and_then(|orbit| orbit.time_of_pericentre(-0.668_045_827_245_038));
+    let angles = [1.871_376_949_645e-3, 2.578_504_572_602e-3, 2.997_118_466_855e-3];
+    let moments = [0.963_782_974_524_455_2, 0.999_564_208_017_937_7, 1.0];
+    let scene = locked(moments, orbit.expect("an orbit"), 2.0, 0.0, angles).span(0.0, 1000.0 * TAU).tolerance(6e-7);
+    assert!(!verified(scene).plan().meets_tolerance());
 }
 
 #[test]

@@ -133,13 +133,13 @@ pub(crate) fn normalize_by<C: Coefficient>(
     Ok(Normalization { hamiltonian: normal, transform })
 }
 
-/// The same normal form with the generator W = Σ εᵐ W_{m+1} in the new variables. A function f of the old variables is then F in the new ones with
+/// The normal form of [`normalize_by`] with the generator W = Σ εᵐ W_{m+1} in the new variables. A function f of the old variables is then F in the new ones with
 ///
 /// ```text
 /// (n+1) F_{n+1} = Σ_{0≤m≤n} {F_{n−m}; W_{m+1}},   F_0 = f
 /// ```
 ///
-/// so that it costs N(N+1)/2 brackets, and the Hamiltonian as many for each of its parts, but for the last order: only the sum of its F is needed, which costs N brackets.
+/// which takes N(N+1)/2 brackets, and so does each part of the Hamiltonian. The last order takes N brackets for all parts, because only the sum of their F is needed.
 /// The transform is that of −W, from the new variables to the old ones: its `inverse` takes functions of the old variables to the new ones, and `direct` the other way.
 pub(crate) fn normalize_backwards<C: Coefficient>(
     hamiltonian: &[Polynomial<C>],

@@ -63,14 +63,14 @@ impl Lock {
         } else {
             Err(format!("{spin:.3} rotations an orbit are near no resonance from 1/2 to {}", MOST_IN_TWO / 2))
         };
-        // In the middle of a swing a body can be nearer to the rate of the next resonance than to its own.
-        let fastest = 3.0 * orbit.strength() / orbit.mean_motion().powi(2) * (b - a) / c;
+        // In the middle of a swing a body can be nearer to the rate of the next resonance than to its own. |X| ≤ (1 − e)⁻³ bounds ω_ψ, and a pendulum swings no faster than ω_ψ.
+        let kappa = orbit.strength() / orbit.mean_motion().powi(2);
+        let fastest = 3.0 * kappa * (b - a) / c / (1.0 - orbit.eccentricity()).powi(3);
         for twice in [nearest.saturating_sub(1), nearest.saturating_add(1)] {
-            let swings = (spin - f64::from(twice) / 2.0).powi(2) * (1.0 - orbit.eccentricity()).powi(3) < fastest;
             if orders.contains(&twice)
-                && swings
+                && (spin - f64::from(twice) / 2.0).powi(2) < fastest
                 && let Ok(other) = of(twice)
-                && found.as_ref().map_or(true, |lock| other.swing() < lock.swing())
+                && found.as_ref().map_or(true, |lock| other.amplitude_squared() < lock.amplitude_squared())
             {
                 found = Ok(other);
             }
@@ -78,14 +78,13 @@ impl Lock {
         found
     }
 
-    /// The square of the amplitude of a pendulum in the longitude, with its state \[rad²\].
-    fn swing(&self) -> f64 {
-        let LockedShape { moments: [a, b, _], attraction, twice, .. } = self.shape;
-        let [longitude, momentum, ..] = self.state;
-        longitude.powi(2) + momentum.powi(2) / (3.0 * attraction * (b - a) * self.shape.hansen(twice)[1].abs())
+    /// ψ² + (ψ̇/ω_ψ)², the square of the amplitude of a small libration in longitude \[rad²\].
+    fn amplitude_squared(&self) -> f64 {
+        let [longitude, rate, ..] = self.state;
+        longitude.powi(2) + rate.powi(2) / self.shape.swing_rate_squared()
     }
 
-    /// That of a resonance: of the orbit, beside the torque of the others; the sorted moments, and their axes in the body.
+    /// The lock to one resonance. `others` is the largest torque of the other bodies, as by [`strongest`]; `moments` are sorted, and `body` turns from their axes to the body's.
     fn of_resonance(
         scene: &Scene,
         (orbit, others): (&Orbit, f64),

@@ -17,7 +17,7 @@ const TIMES: usize = 8;
 const STEP: f64 = 1e-100;
 /// Largest sum of multiples of the proper angles whose divisors count.
 const LOW: i64 = 2;
-/// A harmonic with a smaller part in a mode than this part of its amplitudes does not move the mode.
+/// A harmonic moves a mode if its part in the mode is more than this fraction of its amplitudes. The rest is rounding.
 const PART: f64 = 1e-9;
 /// A smaller divisor than that of the terms that turn fast in a mode.
 const FAST: f64 = 0.5;
@@ -56,7 +56,7 @@ pub(super) fn residual(form: &DrivenForm, lock: &Lock, course: &FourierMotion, l
     seen.iter().map(|angle| (0..3).map(|mode| error(mode) * angle[mode]).sum::<f64>()).sum()
 }
 
-/// The smallest divisor of a mode: its frequency, or the difference from it of the rates of the harmonics with low multiples that have a part in the mode.
+/// The smallest divisor of a mode: its frequency, or its difference from the rate of a harmonic that moves the mode and has low multiples.
 fn divisor(course: &FourierMotion, mode_of: &[Complex<f64>], mode: usize) -> f64 {
     let own = course.frequencies[mode].abs();
     let size = |values: &[Complex<f64>]| values.iter().map(|c| c.norm()).sum::<f64>();

@@ -50,6 +50,12 @@ impl LockedShape {
         [constant, if k < 0 { backward } else { forward }]
     }
 
+    /// ω_ψ², the square of the frequency of a small libration in longitude in units of n².
+    pub(crate) fn swing_rate_squared(&self) -> f64 {
+        let [a, b, _] = self.moments;
+        3.0 * self.attraction * (b - a) * self.hansen(self.twice)[1].abs()
+    }
+
     /// Whether the long axis is at right angles to the direction that follows the disturbing body: where Hansen's coefficient of the resonance is negative.
     pub(crate) fn is_across(&self) -> bool {
         self.hansen(self.twice)[1] < 0.0

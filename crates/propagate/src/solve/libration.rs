@@ -20,8 +20,8 @@ use crate::torque_free::error_budget::DEFAULT_ROTATIONS;
 use crate::torque_free::polhode::Polhode;
 use crate::torque_free::series::tables::SeriesTables;
 
-/// Orbits over which a motion is compared with an integration, at most the span: where it meets its tolerance on a fixed orbit, and elsewhere. On an orbit that precesses the
-/// slow phases take hundreds of orbits; and the estimate of a series that misses its tolerance can be far too small, if the missing terms belong to a resonance.
+/// Orbits over which a motion is compared with an integration, at most the span. The first number is for motions on a fixed orbit that meet their tolerance. The second is for all
+/// others: the slow phases of a precessing orbit take hundreds of orbits, and a series that misses its tolerance can lack the terms of a resonance, which its estimate does not see.
 const CHECKED: [f64; 2] = [30.0, 1000.0];
 /// Times at which they are compared.
 const TIMES: usize = 32;
