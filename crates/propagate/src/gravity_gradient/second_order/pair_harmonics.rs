@@ -326,4 +326,28 @@ mod tests {
             }
         });
     }
+
+    #[test]
+    fn the_slope_of_a_split_generator_is_its_derivative_with_respect_to_the_frequency() {
+        on_orbit(0.6, 1e6, |mean, disturbance| {
+            let place = Place::of(Lanes::splat(pulp::Scalar, 0.8), 0.6);
+            let series = OrbitHarmonics::new(mean, &place, disturbance).expect("few harmonics");
+            for (number, multiple) in [(22.6, 0), (-31.4, 1), (1.3, 2)] {
+                let generator = |omega: f64| {
+                    let divisors =
+                        Divisors::new((1, multiple), [omega, MEAN_MOTION], multiple == 2, &AverageShift::default());
+                    let Split { near, rest } = series.split(multiple, &divisors);
+                    near.iter().map(|harmonic| harmonic.parts().generator[0]).fold(
+                        (rest.generator[0].value[0], rest.generator[0].slope),
+                        |(value, slope), part| (value + part.value[0], slope + part.slope),
+                    )
+                };
+                let (omega, step) = (number * MEAN_MOTION, 1e-4 * MEAN_MOTION);
+                let difference = (generator(omega + step).0 - generator(omega - step).0) / (2.0 * step);
+                let (_, slope) = generator(omega);
+                // The third derivative times step²/6 at a divisor of 0.3 n.
+                assert!((slope - difference).norm() <= 1e-6 * slope.norm(), "{number} {slope} {difference}");
+            }
+        });
+    }
 }
