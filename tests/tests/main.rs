@@ -1,7 +1,10 @@
 //! The truths of the whole project, in one program: each generic function is compiled and linked once.
 
+mod averaged;
 mod bad_input;
+mod cassini;
 mod emitted_code;
+mod energy;
 mod ensemble;
 mod errata;
 mod gradient_bounds;
@@ -9,6 +12,7 @@ mod gradient_limits;
 mod gradient_rates;
 mod gradient_symmetry;
 mod gravity_gradient;
+mod integrated;
 mod invariants;
 mod libration;
 mod libration_orders;
@@ -26,6 +30,7 @@ mod scene_files;
 mod second_order;
 mod separatrix;
 mod stop;
+mod tables;
 mod threads;
 mod torque_free;
 mod torques;

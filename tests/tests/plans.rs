@@ -1,7 +1,7 @@
 //! What a plan says, and what errors say, in the words that a user reads.
 
 use andoyer_propagate::options::{Averaging, Level};
-use andoyer_propagate::{Body, Ensemble, Error, Method, Orbit, Scene, State};
+use andoyer_propagate::{Body, Ensemble, Error, Method, Motion, Orbit, Scene, State};
 
 const LEVEL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
@@ -235,4 +235,21 @@ fn the_slow_precession_of_a_needle_keeps_its_digits() {
     let momentum = (1e-6 + slender * slender).sqrt();
     let (found, expected) = (motion.long_axis_periods().precession, std::f64::consts::TAU / momentum);
     assert!((found / expected - 1.0).abs() < 1e-15, "{found} {expected}");
+}
+
+#[test]
+fn the_level_that_is_chosen_is_the_level_that_is_asked_for() {
+    for (mean_motion, tolerance, level) in [(1e-3, 1e-4, Level::Full), (1e-2, 1e-10, Level::SecondOrder)] {
+        let body = Body::new([0.7, 0.85, 1.0]).expect("a body");
+        let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.05, 1.0]).expect("a state");
+        let orbit = Orbit::new(mean_motion, 0.1).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
+        let scene = Scene::new(body, state).orbit(orbit).span(0.0, 1e3).tolerance(tolerance);
+        let scene = scene.method(Method::Closed);
+        let open = scene.clone().solve().expect("averaged");
+        assert!(open.plan().to_string().contains(&format!("{level}, averaged")), "{}", open.plan());
+        let asked =
+            scene.averaging(open.plan().averaging().expect("an averaging")).level(level).solve().expect("averaged");
+        let at = |motion: &Motion| motion.at(777.0).expect("within the span").attitude;
+        assert_eq!((at(&open), open.plan().error_bound()), (at(&asked), asked.plan().error_bound()), "{level}");
+    }
 }

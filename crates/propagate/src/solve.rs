@@ -22,6 +22,10 @@ mod integrated;
 mod libration;
 mod several;
 
+#[cfg(all(test, feature = "torques"))]
+pub(crate) use averaged::motion as averaged;
+#[cfg(test)]
+pub(crate) use free::solved;
 pub(crate) use free::untruncated;
 pub(crate) use several::several;
 
@@ -73,38 +77,5 @@ impl Scene {
         let mut motion = choose::motion(scene.about_principal_axes(turn), tables, stop)?;
         motion.given = Some(Box::new(Given { scene, turn }));
         Ok(motion)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Body, Method, State};
-
-    fn rates_at(tables: &SeriesTables, order: usize, angular_velocity: [f64; 3]) -> [f64; 3] {
-        let body = Body::new([0.5, 0.75, 1.0]).expect("a body");
-        let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], angular_velocity).expect("a state");
-        let motion = Scene::new(body, state).method(Method::Series).order(order).solve_with(tables).expect("a wobble");
-        motion.at(123.4).expect("a finite time").angular_velocity.into()
-    }
-
-    #[test]
-    fn what_was_solved_before_changes_no_bit() {
-        let new = SeriesTables::default;
-        for angular_velocity in [[0.2, 0.3, 0.9], [1.6, 0.35, 0.5]] {
-            let expected = [2, 7, 20].map(|order| rates_at(&new(), order, angular_velocity));
-            assert!(expected[0] != expected[1] && expected[1] != expected[2]);
-            let seen = new();
-            rates_at(&seen, 30, [0.2, 0.3, 0.9]);
-            rates_at(&seen, 5, [1.6, 0.35, 0.5]);
-            assert_eq!([2, 7, 20].map(|order| rates_at(&seen, order, angular_velocity)), expected);
-        }
-    }
-
-    #[test]
-    fn tables_and_bodies_go_to_other_threads() {
-        fn shared<T: Send + Sync + std::panic::UnwindSafe + std::panic::RefUnwindSafe>() {}
-        shared::<SeriesTables>();
-        shared::<Body>();
     }
 }

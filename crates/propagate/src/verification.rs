@@ -172,7 +172,13 @@ impl Motion {
         let last = samples - 1;
         let time = |k: usize| if k == last { span.1 } else { span.0 + (span.1 - span.0) * (k as f64 / last as f64) };
         let times: Vec<f64> = (0..samples).map(time).collect();
-        let [own, other] = [self, &reference].map(|motion| {
+        self.compared(&reference, times, stop)
+    }
+
+    /// The angles between this motion and one about the body axes (2, 3, 1).
+    fn compared(&self, reference: &Self, times: Vec<f64>, stop: &AtomicBool) -> Result<Verification, Error> {
+        let samples = times.len();
+        let [own, other] = [self, reference].map(|motion| {
             let (mut attitudes, mut rates) = (vec![[0.0; 4]; samples], vec![[0.0; 3]; samples]);
             motion.batch().until(stop).about_principal_axes(&times, &mut attitudes, &mut rates).map(|()| attitudes)
         });
@@ -247,52 +253,48 @@ fn next_axes() -> UnitQuaternion<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Orbit;
 
-    fn scene() -> Scene {
-        let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.2, 0.3, 1.1]).expect("a state");
-        Scene::new(Body::new([0.5, 0.75, 1.0]).expect("a body"), state).span(0.0, 300.0).tolerance(1e-7)
+    const MOMENTS: [f64; 3] = [0.5, 0.75, 1.0];
+
+    fn free(rates: [f64; 3]) -> Motion {
+        crate::solve::solved(MOMENTS, State::new(0.0, [0.0, 0.0, 0.0, 1.0], rates).expect("a state"))
     }
 
-    fn orbit() -> Orbit {
-        Orbit::new(2e-3, 0.2).expect("an orbit")
-    }
-
-    fn verified(motion: &Motion) -> Verification {
-        motion.verify(VerifyOptions::default()).expect("a verification")
+    /// The verification of a motion by one with other rates, about the axes of verifications.
+    fn verified(motion: &Motion, rates: [f64; 3]) -> Verification {
+        let scene = free(rates).independent((0.0, 300.0), None).expect("a scene");
+        let reference = crate::solve::solved(scene.body().moments(), *scene.state());
+        motion.compared(&reference, vec![0.0, 150.0, 300.0], &GOING).expect("a verification")
     }
 
     #[test]
-    fn motion_without_the_torque_of_its_scene_is_refuted() {
-        let mut motion = scene().solve().expect("a motion");
-        motion.scene = motion.scene.orbit(orbit());
-        let verification = verified(&motion);
-        assert!(verification.refuted() && !verification.holds(), "{verification}");
-        assert!(verification.to_string().ends_with("rad, is exceeded"), "{verification}");
-        assert!(verification.error() > 1e-6, "{verification}");
+    fn motion_that_is_another_is_refuted() {
+        let motion = free([0.2, 0.3, 1.1]);
+        assert!(!verified(&motion, [0.2, 0.3, 1.1]).refuted());
+        let other = verified(&motion, [0.2, 0.3, 1.1 + 1e-8]);
+        assert!(other.refuted() && !other.holds() && other.error() > 1e-6, "{other}");
+        assert!(other.to_string().ends_with("rad, is exceeded"), "{other}");
     }
 
     #[test]
     fn bound_that_is_smaller_than_the_error_is_refuted_and_a_larger_one_holds() {
-        let mut motion = scene().orbit(orbit()).solve().expect("a motion");
-        let error = verified(&motion).error();
-        for (bound, holds) in [(0.5 * error, false), (2.0 * error, true)] {
-            motion.plan.error_bound = bound;
-            let verification = verified(&motion);
-            assert_eq!((verification.holds(), verification.refuted()), (holds, !holds), "{verification}");
+        let verification = |error_bound: f64, integration_bound: f64| Verification {
+            times: vec![0.0, 1.0],
+            errors: vec![0.0, 1e-6],
+            integration_bound,
+            error_bound,
+        };
+        for (bound, holds) in [(0.5e-6, false), (2e-6, true)] {
+            let found = verification(bound, 1e-8);
+            assert_eq!((found.holds(), found.refuted()), (holds, !holds), "{found}");
         }
-    }
-
-    #[test]
-    fn integration_that_is_not_accurate_enough_decides_nothing() {
-        let motion = scene().orbit(orbit()).solve().expect("a motion");
-        let coarse = motion.verify(VerifyOptions::default().tolerance(0.01)).expect("a verification");
-        let coarse = Verification { error_bound: coarse.error(), ..coarse };
+        // An integration that is not accurate enough decides nothing.
+        let coarse = verification(1e-6, 0.01);
         assert!(!coarse.holds() && !coarse.refuted(), "{coarse}");
+        let said = coarse.to_string();
         assert!(
-            coarse
-                .to_string()
-                .ends_with("is neither confirmed nor refuted, because the integration is not accurate enough")
+            said.ends_with("is neither confirmed nor refuted, because the integration is not accurate enough"),
+            "{said}"
         );
     }
 }

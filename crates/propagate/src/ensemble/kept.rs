@@ -69,81 +69,50 @@ impl fmt::Debug for Kept {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Ensemble;
-    use crate::input::options::{Averaging, Method};
-    use crate::orbit::elements::Orbit;
+    use crate::State;
 
-    /// Two members under a torque and one without.
-    fn ensemble() -> Ensemble {
-        let rates = vec![[0.0, 0.01, 1.0], [0.0, 0.02, 1.0], [0.0, 1.0, 0.001]];
-        let sun = Orbit::new(2e-3, 0.1).expect("an orbit");
-        let ensemble = Ensemble::new(vec![[1.0, 1.02, 1.05]; 3], vec![[0.0, 0.0, 0.0, 1.0]; 3], rates);
-        let ensemble = ensemble.expect("members").orbits(vec![Some(sun), None, Some(sun)]).expect("orbits");
-        ensemble.span(0.0, 1e3).tolerance(1e-6)
-    }
-
-    fn attitudes(ensemble: &Ensemble, times: &[f64]) -> Vec<[f64; 4]> {
-        let mut out = vec![[0.0; 4]; 3 * times.len()];
-        ensemble.attitudes_into(times, &mut out).expect("attitudes");
-        out
-    }
-
-    #[test]
-    fn members_under_a_torque_are_solved_once() {
-        let ensemble = ensemble();
-        let first = attitudes(&ensemble, &[0.0, 900.0]);
-        let kept = [0, 1, 2].map(|member| ensemble.kept.get(member));
-        assert_eq!([0, 1, 2].map(|member: usize| kept[member].is_some()), [true, false, true]);
-        let copy = ensemble.clone();
-        assert_eq!(attitudes(&copy, &[0.0, 900.0]), first);
-        assert_eq!(copy.plans().expect("plans").len(), 3);
-        let motion = copy.motion(2).expect("a motion");
-        assert_eq!(motion.plan(), &ensemble.plans().expect("plans")[2]);
-        for (member, solved) in kept.iter().enumerate() {
-            let again = copy.kept.get(member);
-            assert_eq!(again.as_ref().map(Arc::as_ptr), solved.as_ref().map(Arc::as_ptr), "{member}");
-        }
-    }
-
-    #[test]
-    fn what_was_solved_for_other_options_is_not_used() {
-        let ensemble = ensemble();
-        let first = ensemble.plans().expect("plans");
-        let shorter = ensemble.clone().span(0.0, 10.0);
-        assert!(shorter.kept.get(0).is_none() && ensemble.kept.get(0).is_some());
-        assert_ne!(shorter.plans().expect("plans")[0].error_bound(), first[0].error_bound());
-        let changed = [ensemble.clone().tolerance(1e-7), ensemble.clone().epochs(vec![1.0]).expect("epochs")];
-        assert!(changed.iter().all(|ensemble| ensemble.kept.get(0).is_none()));
-        assert!(ensemble.clone().threads(1).kept.get(0).is_some());
+    fn solved(rates: [f64; 3]) -> Solved {
+        let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], rates).expect("a state");
+        Arc::new(Ok(crate::solve::solved([1.0, 1.02, 1.05], state)))
     }
 
     #[test]
     fn memory_is_counted_and_bounded() {
-        let ensemble = ensemble();
-        let [theory, integrated] = [0, 2].map(|member| ensemble.solved(member));
+        let [one, other] = [solved([0.0, 0.01, 1.0]), solved([0.0, 1.0, 0.001])];
         let memory = |solved: &Solved| solved.as_ref().as_ref().map_or(0, Motion::memory);
-        let most = memory(&theory).max(memory(&integrated)) + 1;
+        let most = memory(&one).max(memory(&other)) + 1;
         let kept = Kept::default();
-        kept.keep_within(most, 0, theory.clone());
-        kept.keep_within(most, 2, integrated.clone());
+        kept.keep_within(most, 0, one.clone());
+        kept.keep_within(most, 2, other.clone());
         assert!(kept.get(0).is_some() && kept.get(2).is_none());
-        kept.keep_within(memory(&theory) - 1, 0, theory.clone());
+        kept.keep_within(memory(&one) - 1, 0, one.clone());
         assert!(kept.get(0).is_none() && kept.motions().memory == 0);
-        kept.keep_within(most, 2, integrated.clone());
-        kept.keep_within(most, 2, integrated.clone());
-        assert_eq!(kept.motions().memory, memory(&integrated));
-        // 159 rotations: the steps and the rows of their series.
-        let steps = integrated.as_ref().as_ref().map_or(0, |motion| motion.plan().steps());
-        assert!(steps > 500 && memory(&integrated) > 72 * 10 * steps);
+        kept.keep_within(most, 2, other.clone());
+        kept.keep_within(most, 2, other.clone());
+        assert_eq!(kept.motions().memory, memory(&other));
     }
 
+    #[cfg(feature = "torques")]
     #[test]
     fn a_motion_that_grows_is_counted_anew() {
-        let scene =
-            ensemble().scene(0).expect("a scene").averaging(Averaging::Spin).method(Method::Closed).span(0.0, 1e6);
-        let motion = scene.solve().expect("a motion");
+        use crate::{Body, Orbit, Scene};
+        let sun = Orbit::new(2e-3, 0.1).expect("an orbit");
+        let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.01, 1.0]).expect("a state");
+        let scene = Scene::new(Body::new([1.0, 1.02, 1.05]).expect("a body"), state).orbit(sun);
+        let scene = scene.averaging(crate::options::Averaging::Spin).span(0.0, 1e6);
+        let polhode = crate::torque_free::polhode::Polhode::new(scene.body(), &state);
+        let motion = crate::solve::averaged(scene, polhode.as_ref(), &[sun]).expect("a motion");
         let before = motion.memory();
         motion.at(1e6).expect("a time"); // 318 orbits: 1,273 quarters
         assert!(motion.memory() > before + 1273 * 800);
+    }
+
+    #[test]
+    fn copies_share_what_was_solved() {
+        let kept = Kept::default();
+        let motion = solved([0.0, 0.01, 1.0]);
+        kept.clone().keep(1, motion.clone());
+        assert_eq!(kept.get(1).as_ref().map(Arc::as_ptr), Some(Arc::as_ptr(&motion)));
+        assert!(kept.get(0).is_none());
     }
 }

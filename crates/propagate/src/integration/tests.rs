@@ -5,7 +5,7 @@ use super::expansion::{Equations, Start};
 use super::integrated::{Integrated, prospect};
 use super::integrator::{Runner, Step};
 use crate::error::STEP_BYTES;
-use crate::{Body, Error, Method, Orbit, Scene, State};
+use crate::{Body, Method, Orbit, Scene, State};
 
 fn scene(moments: [f64; 3], rates: [f64; 3]) -> Scene {
     let state = State::new(3.0, [0.1, -0.2, 0.3, 0.86_f64.sqrt()], rates).expect("a state");
@@ -15,38 +15,6 @@ fn scene(moments: [f64; 3], rates: [f64; 3]) -> Scene {
 #[test]
 fn a_step_takes_the_bytes_that_the_error_says() {
     assert_eq!(size_of::<Step>() as f64, STEP_BYTES);
-}
-
-#[test]
-fn free_motion_is_that_of_the_closed_form_in_both_directions() {
-    for (moments, rates) in [
-        ([1.0, 1.5, 2.0], [0.1, 0.2, 1.0]),
-        ([1.0, 1.5, 2.0], [1.0, 0.2, 0.1]),
-        ([2.0, 1.0, 1.5], [0.3, -0.2, 0.7]),
-        ([1.0, 1.0, 2.0], [0.1, 0.2, -1.0]),
-        ([0.1, 1.0, 1.05], [0.3, 0.2, 1e-3]),
-    ] {
-        let free = scene(moments, rates).span(-97.0, 203.0);
-        let closed = free.clone().solve().expect("a motion");
-        let motion = free.method(Method::Integrated).solve().expect("a motion");
-        let bound = motion.plan().error_bound();
-        assert!(bound < 1e-11, "{moments:?}: {bound:e}");
-        for k in 0..=300 {
-            let time = -97.0 + f64::from(k);
-            let [found, exact] = [&motion, &closed].map(|motion| motion.at(time).expect("a time"));
-            let error = found.attitude.angle_to(&exact.attitude);
-            assert!(error <= bound, "{moments:?} at {time}: {error:e} and {bound:e}");
-            assert!((found.angular_velocity - exact.angular_velocity).norm() < 1e-13);
-        }
-    }
-}
-
-#[test]
-fn a_span_is_needed_and_one_of_too_many_rotations_is_refused() {
-    let scene = scene([1.0, 1.5, 2.0], [0.1, 0.2, 1.0]).method(Method::Integrated);
-    assert!(matches!(scene.solve(), Err(Error::NoSpan { .. })));
-    let error = scene.span(0.0, 6.3e9).solve().expect_err("too long");
-    assert!(matches!(error, Error::TooManySteps { steps, .. } if steps > 1e9), "{error}");
 }
 
 #[test]
@@ -61,16 +29,6 @@ fn steps_that_are_expanded_again_give_the_bits_of_those_that_were_kept() {
         let time = -43.0 + 0.25 * f64::from(k);
         assert_eq!(one.at((time, 0.0)), other.at((time, 0.0)));
     }
-}
-
-#[test]
-fn a_span_of_too_many_steps_says_why_theory_does_not_serve() {
-    // The polhode turns with 0.03834862, as the orbit does.
-    let orbit = Orbit::new(0.038_348_62, 0.0).and_then(|orbit| orbit.mass_fraction(1e-4)).expect("an orbit");
-    let solved = scene([1.0, 1.02, 1.05], [0.0, 0.01, 1.0]).orbit(orbit).span(0.0, 1e9).solve();
-    let error = solved.map(|motion| motion.plan().error_bound()).expect_err("too long");
-    assert!(matches!(&error, Error::TooManySteps { reason, .. } if reason.contains("resonance")), "{error}");
-    assert!(error.to_string().contains("The scene is integrated because of the theory: "), "{error}");
 }
 
 #[test]
@@ -121,33 +79,6 @@ fn the_guess_of_the_bound_is_near_the_bound_and_not_above_it_in_the_median() {
     eprintln!("guess / bound: {:.2} {:.2} {:.2} {:.2} {:.2}", ratios[0], ratios[2], ratios[15], ratios[27], ratios[29]);
     assert!(ratios[15] > 0.4 && ratios[15] <= 1.0, "{}", ratios[15]);
     assert!(ratios[2] > 0.1 && ratios[27] < 3.0, "{} {}", ratios[2], ratios[27]);
-}
-
-#[test]
-fn a_scene_of_a_hundred_rotations_whose_theory_misses_a_tolerance_of_1e_12_is_integrated_and_meets_it() {
-    let orbit = Orbit::new(0.01, 0.1).expect("an orbit");
-    let scene = scene([0.5, 0.8, 1.0], [0.05, 0.05, 1.0]).orbit(orbit).span(0.0, 700.0).tolerance(1e-12);
-    let theory = scene.clone().method(Method::Closed).solve().expect("a motion");
-    assert!(!theory.plan().meets_tolerance(), "{}", theory.plan());
-    let plan = scene.solve().expect("a motion").plan().clone();
-    assert!(plan.method() == Method::Integrated && plan.meets_tolerance(), "{plan}");
-}
-
-#[test]
-fn a_plan_by_theory_that_misses_the_tolerance_says_what_bound_the_integration_would_have() {
-    let orbit = Orbit::new(0.01, 0.1).expect("an orbit");
-    let scene = scene([0.5, 0.8, 1.0], [0.05, 0.05, 1.0]).orbit(orbit).tolerance(1e-12);
-    let long = scene.clone().span(0.0, 7e4).solve().expect("a motion");
-    assert_eq!(long.plan().method(), Method::Closed);
-    let (guess, _) = prospect(&scene.clone().span(0.0, 7e4)).expect("a guess");
-    let said = long.plan().skipped().last().expect("a reason").clone();
-    assert_eq!(
-        said,
-        format!("integration: its error bound would be about {guess:.1e} rad (method \"integrated\" has it)")
-    );
-    let longest = scene.span(0.0, 7e7).solve().expect("a motion");
-    let said = longest.plan().skipped().last().expect("a reason");
-    assert_eq!(said, "integration: it would take about 1.4e8 steps, and at most 8388608 are kept");
 }
 
 #[test]

@@ -79,11 +79,10 @@ impl Motion {
 #[cfg(test)]
 mod tests {
     use super::{Constants, Measured};
-    use crate::{Body, Motion, Scene, State};
+    use crate::{Motion, State};
 
     fn motion(moments: [f64; 3], rates: [f64; 3]) -> Motion {
-        let state = State::new(7.5, [0.5, -0.5, 0.5, 0.5], rates).expect("a state");
-        Scene::new(Body::new(moments).expect("moments"), state).solve().expect("a motion")
+        crate::solve::solved(moments, State::new(7.5, [0.5, -0.5, 0.5, 0.5], rates).expect("a state"))
     }
 
     #[test]

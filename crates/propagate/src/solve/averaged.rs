@@ -31,7 +31,7 @@ const EFFECT_SAMPLES: u32 = 16;
 ///
 /// # Errors
 /// [`Error::Unaveraged`], [`Error::Units`], those of [`chosen`], and [`Error::TorqueTooStrong`] for an error bound above the effect of the torque.
-pub(super) fn motion(scene: Scene, polhode: Option<&Polhode>, orbits: &[Orbit]) -> Result<Motion, Error> {
+pub(crate) fn motion(scene: Scene, polhode: Option<&Polhode>, orbits: &[Orbit]) -> Result<Motion, Error> {
     let Some(polhode) = polhode else {
         return Err(Error::Unaveraged { mode: Mode::AtRest.to_string(), ratio: 0.0, bound: LARGEST_SEPARATRIX_RATIO });
     };

@@ -1,8 +1,12 @@
 //! Motions without a torque: at rest, about an axis fixed in the body, wobbling, and on the separatrix (theory §5 to §8).
 
 use crate::error::Error;
+#[cfg(test)]
+use crate::input::body::Body;
 use crate::input::options::{Averaging, Level, Method};
 use crate::input::scene::Scene;
+#[cfg(test)]
+use crate::input::state::State;
 use crate::motion::plan::Plan;
 use crate::motion::solved::{Frequencies, Motion};
 use crate::motion::trajectory::Trajectory;
@@ -209,4 +213,12 @@ fn remark_unused(motion: &mut Motion) {
 /// The plan's remark about a requested order if the motion has no series.
 pub(crate) fn unused_order(scene: &Scene) -> Option<String> {
     scene.asked_order().map(|order| format!("order {order}, which was asked for: this motion has no series"))
+}
+
+/// A free motion of the unit tests. The choice among all methods would compile them all for the tests.
+#[cfg(test)]
+pub(crate) fn solved(moments: [f64; 3], state: State) -> Motion {
+    let scene = Scene::new(Body::new(moments).expect("a body"), state);
+    let polhode = Polhode::new(scene.body(), scene.state());
+    motion(scene, polhode.as_ref(), Preparation::new(&SeriesTables::default())).expect("a motion")
 }

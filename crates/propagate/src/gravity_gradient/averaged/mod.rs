@@ -18,5 +18,3 @@ pub(crate) mod equations;
 mod polynomial;
 mod precession;
 pub(crate) mod spin;
-#[cfg(test)]
-mod tests;

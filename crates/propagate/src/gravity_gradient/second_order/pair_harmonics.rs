@@ -337,10 +337,11 @@ mod tests {
                     let divisors =
                         Divisors::new((1, multiple), [omega, MEAN_MOTION], multiple == 2, &AverageShift::default());
                     let Split { near, rest } = series.split(multiple, &divisors);
-                    near.iter().map(|harmonic| harmonic.parts().generator[0]).fold(
-                        (rest.generator[0].value[0], rest.generator[0].slope),
-                        |(value, slope), part| (value + part.value[0], slope + part.slope),
-                    )
+                    near.iter()
+                        .map(|harmonic| harmonic.parts().generator[0])
+                        .fold((rest.generator[0].value[0], rest.generator[0].slope), |(value, slope), part| {
+                            (value + part.value[0], slope + part.slope)
+                        })
                 };
                 let (omega, step) = (number * MEAN_MOTION, 1e-4 * MEAN_MOTION);
                 let difference = (generator(omega + step).0 - generator(omega - step).0) / (2.0 * step);

@@ -1,9 +1,9 @@
 //! Tests of the averaged theory with several bodies and with precessing orbits, against the numerical integration.
 
-use crate::disturbers::DisturbingBody;
-use crate::error::TorqueMeasure;
-use crate::options::Level;
-use crate::{Body, Error, Method, Motion, Orbit, Scene, State};
+use andoyer_propagate::disturbers::DisturbingBody;
+use andoyer_propagate::error::TorqueMeasure;
+use andoyer_propagate::options::Level;
+use andoyer_propagate::{Body, Error, Method, Motion, Orbit, Scene, State};
 
 /// A tumbling body under these orbits.
 fn scene(orbits: &[Orbit], duration: f64) -> Scene {
