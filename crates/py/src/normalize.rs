@@ -1,6 +1,7 @@
 //! `andoyer.normalize`.
 
 use andoyer_series::birkhoff::Resonances;
+use andoyer_series::periodic::MAX_DRIVEN_ORDER;
 use andoyer_series::progress::Progress;
 use andoyer_series::real_field::RealField;
 use andoyer_series::{Error as Algebra, MAX_EXPONENT, PhaseSpace, normalize_driven};
@@ -11,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
 
 use crate::birkhoff::BirkhoffNormalForm;
-use crate::driven::Driven;
+use crate::driven::{Driven, Given};
 use crate::error;
 use crate::expression::{Expression, number};
 use crate::form::{Form, rounded};
@@ -39,9 +40,10 @@ use crate::progress;
 ///     detuning, like d in ``(1 + d)*y^2/2``. In a dict the number of a parameter is put in its place, and the form does not contain this parameter; a parameter with None stays a symbol.
 /// driven : dict of {str: number or (number, float)}, or Driven, optional
 ///     Driven phases M = M₀ + n t: the frequency n, or (n, M₀), by name or SymPy symbol. M₀ is 0 by default. The Hamiltonian contains them as ``cos(j*M)`` and ``sin(j*M)`` with
-///     integers j; in a dict of coefficients the exponents are followed by j for each phase, which means cos jM for j ≥ 0 and sin ``|j|M`` for j < 0. A term with a
-///     phase counts one order more. Terms of order 0, which are linear, are a force: the variables are measured from its motion. A phase takes one of the eight places.
-///     A `Driven` gives the form about the periodic motion instead, a `DrivenNormalForm`: for strong drives, and for coefficients that are sampled.
+///     integers j; in a dict of coefficients the exponents are followed by j for each phase, which means cos jM for j ≥ 0 and sin ``|j|M`` for j < 0. A phase takes one of the
+///     eight places. The form is that about the periodic motion, a `DrivenNormalForm` in floats, so the drive may be strong; a `Driven` has sampled coefficients.
+///     With any of `parameters`, `degrees`, `frequency`, `resonances`, `keep` and `exact` it is about the equilibrium, a `BirkhoffNormalForm`, order by order in the drive: a
+///     term with a phase counts one order more, and the variables are measured from the motion of a force, which is the terms of order 0.
 /// degrees : dict of {str: int}, optional
 ///     The degree of each parameter in the ordering of the terms; by default 2 for a detuning and 0 for any other parameter.
 /// frequency : (str, str), optional
@@ -111,25 +113,32 @@ pub(crate) fn normalize(
     if let Some(driven) = driven.and_then(|driven| driven.cast::<Driven>().ok()) {
         let given = [
             ("parameters", parameters.is_some()),
+            ("degrees", degrees.is_some()),
             ("frequency", frequency.is_some()),
             ("resonances", resonances.is_some()),
             ("keep", keep.is_some()),
+            ("exact", exact.is_some()),
         ];
         if let Some((name, _)) = given.into_iter().find(|(_, given)| *given) {
             let message = format!("{name}: a form with a Driven has none; driven={{name: rate}} takes them");
             return Err(error::input(name, "given", "None", message));
         }
-        if exact == Some(true) {
-            let message = "exact = True: a form with a Driven has floats".to_owned();
-            return Err(error::input("exact", "True", "None or False", message));
-        }
-        let order = self::order("order", order, 0, LARGEST_DRIVEN)?;
-        let tolerances = (smallest_divisor, TAIL);
-        let form = crate::driven::normalized(py, hamiltonian, order, &space, driven.get(), tolerances, progress)?;
+        let order = self::order("order", order, 0, MAX_DRIVEN_ORDER)?;
+        let given = Given::of(driven.get());
+        let form = crate::driven::normalized(py, hamiltonian, order, &space, given, smallest_divisor, progress)?;
         return form.into_py_any(py);
     }
     let driven = driven.map(|driven| driven.cast::<PyDict>().map_err(|_| wrong_driven(driven))).transpose()?;
     let (phases, driven_float) = phases(driven)?;
+    let in_orders = parameters.is_some() || degrees.is_some() || frequency.is_some() || resonances.is_some();
+    if !(phases.is_empty() || in_orders || keep.is_some() || exact.is_some()) {
+        let order = self::order("order", order, 0, MAX_DRIVEN_ORDER)?;
+        let names = phases.iter().map(|(name, ..)| name.clone()).collect();
+        let phases = phases.iter().map(|(_, rate, start)| (rate.to_float(), *start)).collect();
+        let given = Given { names, phases, samples: None };
+        let form = crate::driven::normalized(py, hamiltonian, order, &space, given, smallest_divisor, progress)?;
+        return form.into_py_any(py);
+    }
     let names: Vec<&str> = phases.iter().map(|(name, ..)| name.as_str()).collect();
     let space = space.with_driven(&names).map_err(|problem| error::algebra_of("driven", problem))?;
     let driven: Vec<_> = phases.iter().map(|(_, frequency, phase)| (frequency.clone(), *phase)).collect();
@@ -177,10 +186,6 @@ pub(crate) fn normalize(
     let form = progress::reported(py, progress, compute)?;
     BirkhoffNormalForm::new(form, symbols).into_py_any(py)
 }
-
-/// The highest order with a [`Driven`], and the size of the last harmonics.
-const LARGEST_DRIVEN: usize = 60;
-const TAIL: f64 = 1e-12;
 
 fn wrong_driven(driven: &Bound<'_, PyAny>) -> PyErr {
     let kind = driven.get_type().name().map_or_else(|_| "?".to_owned(), |name| name.to_string());

@@ -1,14 +1,18 @@
 """Normal forms about a periodic motion: Hill's equation, integrations, samples, and what is refused."""
 
+import copy
 import itertools
+import json
 import math
+import pickle
+import subprocess
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 import andoyer
-from andoyer import Driven, normalize
+from andoyer import Driven, DrivenNormalForm, normalize
 
 PAIR = [("x", "p")]
 DUFFING = "(p^2 + x^2)/2 - x^3/5 + x^4/4 - 0.2*x*cos(M)"
@@ -54,7 +58,7 @@ def test_two_phases_move_as_the_formula_says():
     form = normalize("(p^2 + 4*x^2)/2 - x*cos(a) - x*sin(3*b)/2", 2, PAIR, driven=Driven([1.0, 0.7], names=["a", "b"]))
     exact = math.cos(0.3) / 3 + 0.5 * math.sin(6.0) / (4 - 2.1**2)
     assert form.periodic([0.3, 2.0])[0] == pytest.approx(exact, abs=1e-14)
-    assert form.driven == {"a": 1.0, "b": 0.7} and form.kinds == ("elliptic",)
+    assert form.driven == {"a": (1.0, 0.0), "b": (0.7, 0.0)} and form.kinds == ("elliptic",)
 
 
 def test_functions_are_expressed_at_a_time():
@@ -106,3 +110,100 @@ def test_bad_input_names_its_argument():
     with pytest.raises(andoyer.InputError, match="state"):
         form.trajectory([0.0], [1.0])
     assert repr(form) == f"<DrivenNormalForm of order 2 with M, {form.times} times>"
+
+
+def test_exponent_of_mathieu_is_that_of_hill_s_equation_whatever_the_drive():
+    a, q = 2.2, 1.0
+    form = normalize(f"(p^2 + {a}*x^2)/2 - {q}*x^2*cos(2*M)", 0, PAIR, driven={"M": 1})
+    columns = [integrated(lambda t, z: [z[1], -(a - 2 * q * math.cos(2 * t)) * z[0]], start, [0, math.pi])[-1] for start in ([1, 0], [0, 1])]
+    assert isinstance(form, DrivenNormalForm)
+    assert 2 * math.cos(math.pi * form.frequencies[0]) == pytest.approx(columns[0][0] + columns[1][1], abs=1e-10)
+
+
+def test_phase_at_time_0_moves_the_time():
+    form, later = (normalize(DUFFING, 6, PAIR, driven={"M": (0.37, start)}) for start in (0.0, 0.74))
+    times = np.linspace(0.0, 20.0, 5)
+    assert later.driven == {"M": (0.37, 0.74)} and later != form and later.periodic(0.74) == pytest.approx(form.periodic(0.74), abs=1e-14)
+    assert later.trajectory([0.25, 0.02], times) == pytest.approx(form.trajectory([0.25, 0.02], times, time=2.0), abs=1e-12)
+    backwards = normalize(DUFFING.replace("cos(M)", "cos(-M)"), 6, PAIR, driven={"M": (-0.37, -0.74)})
+    assert backwards.trajectory([0.25, 0.02], times) == pytest.approx(later.trajectory([0.25, 0.02], times), abs=1e-11)
+
+
+def test_hamiltonian_that_is_not_driven_has_the_form_that_it_has_without_a_phase():
+    text = "(p^2 + x^2)/2 - x^3/5 + x^4/4"
+    form, plain = normalize(text, 8, PAIR, driven={"M": 0.37}), normalize(text, 8, PAIR)
+    assert form.in_actions() == pytest.approx({powers: float(c) for powers, c in plain.in_actions().items()}, rel=1e-12)
+    assert abs(form.periodic(1.0)).max() == 0.0
+
+
+ONE = ("(p^2 + x^2)/2 - x^3/5 + x^4/4 - 0.2*x*cos(M) + 0.05*x^2*p*sin(2*M)", PAIR)
+SADDLE = ("x*X + (y^2 + Y^2)/2 + x*y^2/4 - y^3/3 - x*cos(M)/20 + X*y*sin(-2*M)/20", [("x", "X"), ("y", "Y")])
+CASES = {"one": ONE, "saddle": SADDLE}
+
+
+@pytest.fixture(scope="module", params=CASES)
+def case(request):
+    text, pairs = CASES[request.param]
+    form = normalize(text, 3, pairs, driven={"M": (0.37, 0.3)})
+    normal = np.array([0.02, -0.03, 0.01, 0.02])[: 2 * len(pairs)]
+    return form, normal, form.from_normal(normal, time=1.7)
+
+
+def test_stored_forms_are_the_form(case):
+    form, normal, state = case
+    for kept in (DrivenNormalForm.from_json(form.to_json()), pickle.loads(pickle.dumps(form)), copy.copy(form), copy.deepcopy(form)):
+        assert kept == form and repr(kept) == repr(form) and str(kept) == str(form)
+        assert np.array_equal(kept.from_normal(normal, time=1.7), state)
+    text = json.loads(form.to_json())
+    assert text["driven"] == [["M", 0.37, 0.3]] and text["order"] == 3
+    for key, wrong in (("version", 2), ("order", 61), ("driven", [["M", 0.36, 0.3]]), ("hamiltonian", [[[1], 1.0]]), ("more", 1)):
+        with pytest.raises((andoyer.FileError, andoyer.RepresentationError)):
+            DrivenNormalForm.from_json(json.dumps(text | {key: wrong}))
+    with pytest.raises(andoyer.FileError):
+        DrivenNormalForm.from_json("[]")
+
+
+def test_stored_samples_are_cosines_and_sines():
+    form = normalize("(p^2 + x^2)/2", 4, PAIR, driven=Driven(0.37, lambda M: {(1, 0): -0.2 / (2 + math.cos(M)), (4, 0): 0.1 * math.sin(3 * M)}))
+    kept = DrivenNormalForm.from_json(form.to_json())
+    assert kept.in_actions() == pytest.approx(form.in_actions(), rel=1e-11)
+    assert kept.periodic(0.5) == pytest.approx(form.periodic(0.5), abs=1e-13)
+
+
+@pytest.mark.parametrize("what", ["hamiltonian", "generator", "direct", "inverse"])
+def test_latex_is_balanced_and_has_the_phase(case, what):
+    text = case[0].to_latex(what)
+    assert text.count("{") == text.count("}") and "nan" not in text.lower()
+    assert ("\\cos(M)" in text) == (what != "hamiltonian")
+
+
+def test_code_does_what_the_form_does(case, tmp_path):
+    form, normal, state = case
+    namespace = {}
+    exec(form.to_code("python"), namespace)
+    assert namespace["from_normal"](normal, 1.7) == pytest.approx(state, abs=1e-14)
+    back = namespace["to_normal"](state, 1.7)
+    # The inverse series to order 3 leaves the next order, which the iteration does not.
+    assert back == pytest.approx(normal, abs=1e-4)
+    actions = namespace["actions"](normal)
+    assert actions == pytest.approx(form.actions(state, time=1.7), abs=1e-13)
+    assert namespace["frequencies"](actions) == pytest.approx(form.frequency_map(actions), rel=1e-13)
+    n = len(normal)
+    main = {
+        "c": f"#include <stdio.h>\nint main(void) {{ const double normal[{n}] = {{{', '.join(map(repr, normal.tolist()))}}}; double state[{n}], back[{n}];"
+        f" from_normal(normal, 1.7, state); to_normal(state, 1.7, back); for (int k = 0; k < {n}; ++k) printf(\"%.17g %.17g \", state[k], back[k]); return 0; }}\n",
+        "rust": f"fn main() {{ let state = from_normal(&[{', '.join(map(repr, normal.tolist()))}], 1.7); let back = to_normal(&state, 1.7);"
+        " assert!(frequencies(&actions(&back))[0] != 0.0); for (a, b) in state.iter().zip(&back) { print!(\"{a:e} {b:e} \"); } }\n",
+    }
+    compilers = {"c": ["cc", "-std=c99", "-Wall", "-Wextra", "-O1"], "rust": ["rustc", "--edition", "2021"]}
+    for language, command in compilers.items():
+        source, program = tmp_path / f"form.{language[0]}", tmp_path / f"form_{language}"
+        source.write_text(form.to_code(language) + main[language])
+        subprocess.run([*command, "-o", program, source, *(["-lm"] if language == "c" else [])], check=True)
+        found = [float(part) for part in subprocess.run([program], capture_output=True, text=True, check=True).stdout.split()]
+        assert found[::2] == pytest.approx(state, abs=1e-14) and found[1::2] == pytest.approx(back, abs=1e-13), language
+
+
+def test_domain_says_the_best_order():
+    domain = normalize(DUFFING, 8, PAIR, driven={"M": 0.37}).domain()
+    assert len(domain.norms) == 8 and domain.best_order(0.01) > domain.best_order(2.0)

@@ -874,7 +874,7 @@ class Driven:
 
 @final
 class DrivenNormalForm:
-    """The normal form of a Hamiltonian about a periodic motion, from `normalize` with a `Driven`."""
+    """The normal form of a Hamiltonian about a periodic motion, from `normalize` with driven phases."""
 
     @property
     def order(self) -> int:
@@ -883,8 +883,8 @@ class DrivenNormalForm:
     def variables(self) -> tuple[tuple[str, str], ...]:
         """The pairs (q, p)."""
     @property
-    def driven(self) -> dict[str, float]:
-        """The driven phases: {name: rate}."""
+    def driven(self) -> dict[str, tuple[float, float]]:
+        """The driven phases: {name: (rate, phase at time 0)}."""
     @property
     def frequencies(self) -> tuple[float | complex, ...]:
         """Floquet's exponents on the branch that continues the frequencies without drive: ω of a centre, negative if its energy is negative; iλ of a saddle."""
@@ -918,6 +918,20 @@ class DrivenNormalForm:
         """The rates ∂K/∂I at actions: frequencies of centres, growth rates of saddles."""
     def trajectory(self, state: ArrayLike, times: ArrayLike, time: float = 0.0) -> _Array:
         """Propagates a state by the normal form to times after it."""
+    def domain(self) -> Domain:
+        """The sizes of the orders, and the best order at an amplitude."""
+    def to_json(self) -> str:
+        """Writes the Hamiltonian and what was asked of its form as JSON text with a format version. Samples are written as cosines and sines."""
+    @classmethod
+    def from_json(cls, text: str) -> DrivenNormalForm:
+        """Reads the text of `to_json`, and computes the form again."""
+    def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
+        """Writes a part of this normal form as LaTeX, for a document that uses amsmath."""
+    def to_code(self, language: Literal["c", "rust", "python"] = "c") -> str:
+        """Writes a source file with functions that evaluate this normal form. The file needs only the standard library of its language."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __copy__(self) -> DrivenNormalForm: ...
+    def __deepcopy__(self, _memo: Any) -> DrivenNormalForm: ...
 
 @overload
 def normalize(
@@ -925,9 +939,8 @@ def normalize(
     order: int,
     variables: Sequence[tuple[Any, Any]],
     *,
-    driven: Driven,
+    driven: Driven | dict[Any, Any],
     smallest_divisor: float = 1e-6,
-    exact: Literal[False] | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> DrivenNormalForm: ...
 @overload

@@ -5,6 +5,7 @@
 
 use super::BirkhoffNormalForm;
 use super::mode::{Mode, substitute};
+use super::phase_space::PhaseSpace;
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
@@ -199,25 +200,30 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         Ok(Polynomial::from_terms(terms))
     }
 
-    /// The actions by name: `I_q` for a centre, (q*p) for a saddle, (q*p + Q*P) and (q*P - Q*p) for the modes of a quartet; then the parameters.
+    /// The actions by name, as in [`action_texts`].
     pub(super) fn action_texts(&self) -> Vec<String> {
-        let (names, actions) = (self.space().names(), self.space().action_names());
-        let mut texts = actions.clone();
-        for (mode, kind) in self.modes().iter().enumerate() {
-            let [q, p] = [names[2 * mode], names[2 * mode + 1]];
-            match kind {
-                Mode::Elliptic { .. } => {}
-                Mode::Hyperbolic { .. } => texts[mode] = format!("({q}*{p})"),
-                Mode::Complex { frequency, partner, .. } => {
-                    let [other, momentum] = [names[2 * partner], names[2 * partner + 1]];
-                    texts[mode] = if frequency.sign() > 0 {
-                        format!("({q}*{p} + {other}*{momentum})")
-                    } else {
-                        format!("({other}*{p} - {q}*{momentum})")
-                    };
-                }
+        action_texts(self.modes(), self.space())
+    }
+}
+
+/// The actions by name: `I_q` for a centre, (q*p) for a saddle, (q*p + Q*P) and (q*P - Q*p) for the modes of a quartet; then the parameters.
+pub(crate) fn action_texts<R: RealField>(modes: &[Mode<R>], space: &PhaseSpace) -> Vec<String> {
+    let (names, actions) = (space.names(), space.action_names());
+    let mut texts = actions.clone();
+    for (mode, kind) in modes.iter().enumerate() {
+        let [q, p] = [names[2 * mode], names[2 * mode + 1]];
+        match kind {
+            Mode::Elliptic { .. } => {}
+            Mode::Hyperbolic { .. } => texts[mode] = format!("({q}*{p})"),
+            Mode::Complex { frequency, partner, .. } => {
+                let [other, momentum] = [names[2 * partner], names[2 * partner + 1]];
+                texts[mode] = if frequency.sign() > 0 {
+                    format!("({q}*{p} + {other}*{momentum})")
+                } else {
+                    format!("({other}*{p} - {q}*{momentum})")
+                };
             }
         }
-        texts
     }
+    texts
 }

@@ -8,6 +8,7 @@
 use super::BirkhoffNormalForm;
 use super::matrix::{Matrix, symplectic_inverse};
 use super::mode::Mode;
+use super::phase_space::PhaseSpace;
 use crate::emit::Language;
 use crate::emit::program::{Expression, Function, Program, call, name};
 use crate::emit::routine::{Argument, Results, Routine};
@@ -73,26 +74,13 @@ impl<R: RealField> BirkhoffNormalForm<R> {
                 ("normal", 2 * n),
                 self.normal_program(&images(false)?, &symplectic_inverse(&forward)),
             ),
-            routine(
-                ["actions", "The actions of normal variables."],
-                ("normal", 2 * n),
-                Others { parameters: 0, time: false },
-                ("actions", n),
-                self.actions_program()?,
-            ),
+            actions(self.modes(), self.slots())?,
         ];
         match self.in_actions() {
             Ok(actions) => {
                 let actions = actions.map(R::to_float);
                 let slopes = (0..n).map(|mode| actions.derivative(mode)).collect::<Result<Vec<_>, _>>()?;
-                let meaning = ["frequencies", "The rates dK/dI at actions."];
-                routines.push(routine(
-                    meaning,
-                    ("actions", n),
-                    parameters,
-                    ("rates", n),
-                    polynomials(&slopes, Slots { parameters: n, driven: SLOTS }, RESULT),
-                ));
+                routines.push(frequencies(&slopes, parameters));
             }
             Err(Error::ResonantTerm { .. }) => {}
             Err(other) => return Err(other),
@@ -100,53 +88,13 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         Ok(routines)
     }
 
-    fn actions_program(&self) -> Result<Program, Error> {
-        let square = |slot: usize, other: usize| {
-            let first = Monomial::ONE.with(slot, 1)?;
-            first.with(other, first.exponent(other) + 1)
-        };
-        let action = |(mode, kind): (usize, &Mode<R>)| {
-            let (q, p) = (2 * mode, 2 * mode + 1);
-            Ok(Polynomial::from_terms(match kind {
-                Mode::Elliptic { ratio, .. } => {
-                    let ratio = ratio.to_float();
-                    vec![(square(q, q)?, 0.5 / ratio), (square(p, p)?, 0.5 * ratio)]
-                }
-                Mode::Hyperbolic { .. } => vec![(square(q, p)?, 1.0)],
-                Mode::Complex { partner, frequency, .. } => {
-                    let (other, other_p) = (2 * partner, 2 * partner + 1);
-                    if frequency.sign() > 0 {
-                        vec![(square(q, p)?, 1.0), (square(other, other_p)?, 1.0)]
-                    } else {
-                        vec![(square(other, p)?, 1.0), (square(q, other_p)?, -1.0)]
-                    }
-                }
-            }))
-        };
-        let list = self.modes().iter().enumerate().map(action).collect::<Result<Vec<_>, Error>>()?;
-        Ok(polynomials(&list, self.slots(), RESULT))
-    }
-
     fn slots(&self) -> Slots {
         Slots { parameters: 2 * self.modes().len(), driven: self.space().driven_slots().start }
     }
 
-    /// The harmonics of the driven phases in `images` at the time: `h_7_2` is that of the exponent 2 in slot 7.
     fn harmonics(&self, images: &[Polynomial<f64>]) -> Program {
-        let mut program = Program::default();
-        for (slot, (frequency, start)) in self.space().driven_slots().zip(self.driven()) {
-            let turned = Expression::from(frequency.to_float()) * name("time");
-            let phase = if *start == 0.0 { turned } else { Expression::from(*start) + turned };
-            program.assign(&format!("m_{slot}"), phase);
-            let exponents = images.iter().flat_map(Polynomial::terms).map(|(monomial, _)| monomial.exponent(slot));
-            for exponent in exponents.filter(|&exponent| exponent > 0).collect::<BTreeSet<_>>() {
-                let (j, phase) = (harmonics::signed(exponent), name(&format!("m_{slot}")));
-                let angle = if j.abs() == 1 { phase } else { Expression::from(j.abs() as f64) * phase };
-                let value = call(if j < 0 { Function::Sine } else { Function::Cosine }, angle);
-                program.assign(&format!("h_{slot}_{exponent}"), value);
-            }
-        }
-        program
+        let driven: Vec<_> = self.driven().iter().map(|(frequency, start)| (frequency.to_float(), *start)).collect();
+        waves(self.space(), &driven, images)
     }
 
     fn state_program(&self, images: &[Polynomial<f64>], forward: &Matrix<f64>) -> Program {
@@ -171,69 +119,140 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     }
 
     fn head(&self, routines: &[Routine]) -> Vec<String> {
-        let space = self.space();
-        let names = space.names();
-        let (pairs, parameters) = names.split_at(2 * space.degrees_of_freedom());
-        let assignments: usize = routines.iter().map(|routine| routine.program.statements.len()).sum();
-        let mut lines = vec![
-            format!("Birkhoff normal form of order {}: transformation, actions and frequencies.", self.order()),
-            String::new(),
-            format!("generated by andoyer {}, BirkhoffNormalForm.to_code", env!("CARGO_PKG_VERSION")),
-            String::new(),
-            format!("States and normal variables: {} (ASCII names of q1, p1, q2, p2 ...).", pairs.join(", ")),
-        ];
-        if !parameters.is_empty() {
-            lines.push(format!("Parameters: {}.", parameters.join(", ")));
-        }
-        for (name, (frequency, start)) in space.driven().into_iter().zip(self.driven()) {
-            lines.push(format!("Driven phase: {name} = {start:?} + {:?} time.", frequency.to_float()));
-        }
-        for (mode, kind) in self.modes().iter().enumerate() {
-            let (q, p) = (pairs[2 * mode], pairs[2 * mode + 1]);
-            lines.push(match kind {
-                Mode::Elliptic { frequency, ratio } => format!(
-                    "({q}, {p}): centre, frequency {:?}, I = ({q}^2/r + r {p}^2)/2, r = {:?}",
-                    frequency.to_float(),
-                    ratio.to_float()
-                ),
-                Mode::Hyperbolic { rate } => format!("({q}, {p}): saddle, rate {:?}, I = {q} {p}", rate.to_float()),
-                Mode::Complex { rate, frequency, .. } => {
-                    format!(
-                        "({q}, {p}): of a quartet, rate {:?}, frequency {:?}",
-                        rate.to_float(),
-                        frequency.to_float()
-                    )
-                }
-            });
-        }
+        let driven: Vec<_> = self.driven().iter().map(|(frequency, start)| (frequency.to_float(), *start)).collect();
+        let title = format!("Birkhoff normal form of order {}: transformation, actions and frequencies.", self.order());
+        let mut lines = head(&title, "BirkhoffNormalForm", self.space(), &driven, self.modes());
         if routines.len() < 4 {
             lines.push("K has resonant terms: there is no function of the frequencies.".to_owned());
         }
-        lines.push(format!("{assignments} assignments. Arguments are not checked."));
-        lines.push("No rights are claimed in this file: do with it what you like.".to_owned());
+        lines.extend(foot(routines));
         lines
     }
 }
 
+/// The first lines of a file: what it has, of which class, in which variables.
+pub(crate) fn head<R: RealField>(
+    title: &str,
+    class: &str,
+    space: &PhaseSpace,
+    driven: &[(f64, f64)],
+    modes: &[Mode<R>],
+) -> Vec<String> {
+    let names = space.names();
+    let (pairs, parameters) = names.split_at(2 * space.degrees_of_freedom());
+    let mut lines = vec![
+        title.to_owned(),
+        String::new(),
+        format!("generated by andoyer {}, {class}.to_code", env!("CARGO_PKG_VERSION")),
+        String::new(),
+        format!("States and normal variables: {} (ASCII names of q1, p1, q2, p2 ...).", pairs.join(", ")),
+    ];
+    if !parameters.is_empty() {
+        lines.push(format!("Parameters: {}.", parameters.join(", ")));
+    }
+    for (name, (frequency, start)) in space.driven().into_iter().zip(driven) {
+        lines.push(format!("Driven phase: {name} = {start:?} + {frequency:?} time."));
+    }
+    for (mode, kind) in modes.iter().enumerate() {
+        let (q, p) = (pairs[2 * mode], pairs[2 * mode + 1]);
+        lines.push(match kind {
+            Mode::Elliptic { frequency, ratio } => format!(
+                "({q}, {p}): centre, frequency {:?}, I = ({q}^2/r + r {p}^2)/2, r = {:?}",
+                frequency.to_float(),
+                ratio.to_float()
+            ),
+            Mode::Hyperbolic { rate } => format!("({q}, {p}): saddle, rate {:?}, I = {q} {p}", rate.to_float()),
+            Mode::Complex { rate, frequency, .. } => {
+                format!("({q}, {p}): of a quartet, rate {:?}, frequency {:?}", rate.to_float(), frequency.to_float())
+            }
+        });
+    }
+    lines
+}
+
+/// The last lines of the head.
+pub(crate) fn foot(routines: &[Routine]) -> [String; 2] {
+    let assignments: usize = routines.iter().map(|routine| routine.program.statements.len()).sum();
+    [
+        format!("{assignments} assignments. Arguments are not checked."),
+        "No rights are claimed in this file: do with it what you like.".to_owned(),
+    ]
+}
+
+/// The actions of normal variables.
+pub(crate) fn actions<R: RealField>(modes: &[Mode<R>], slots: Slots) -> Result<Routine, Error> {
+    let square = |slot: usize, other: usize| {
+        let first = Monomial::ONE.with(slot, 1)?;
+        first.with(other, first.exponent(other) + 1)
+    };
+    let action = |(mode, kind): (usize, &Mode<R>)| {
+        let (q, p) = (2 * mode, 2 * mode + 1);
+        Ok(Polynomial::from_terms(match kind {
+            Mode::Elliptic { ratio, .. } => {
+                let ratio = ratio.to_float();
+                vec![(square(q, q)?, 0.5 / ratio), (square(p, p)?, 0.5 * ratio)]
+            }
+            Mode::Hyperbolic { .. } => vec![(square(q, p)?, 1.0)],
+            Mode::Complex { partner, frequency, .. } => {
+                let (other, other_p) = (2 * partner, 2 * partner + 1);
+                if frequency.sign() > 0 {
+                    vec![(square(q, p)?, 1.0), (square(other, other_p)?, 1.0)]
+                } else {
+                    vec![(square(other, p)?, 1.0), (square(q, other_p)?, -1.0)]
+                }
+            }
+        }))
+    };
+    let list = modes.iter().enumerate().map(action).collect::<Result<Vec<_>, Error>>()?;
+    let (n, none) = (modes.len(), Others { parameters: 0, time: false });
+    let meaning = ["actions", "The actions of normal variables."];
+    Ok(routine(meaning, ("normal", 2 * n), none, ("actions", n), polynomials(&list, slots, RESULT)))
+}
+
+/// The rates ∂K/∂I, given in the actions.
+pub(crate) fn frequencies(slopes: &[Polynomial<f64>], others: Others) -> Routine {
+    let n = slopes.len();
+    let program = polynomials(slopes, Slots { parameters: n, driven: SLOTS }, RESULT);
+    routine(["frequencies", "The rates dK/dI at actions."], ("actions", n), others, ("rates", n), program)
+}
+
+/// The harmonics of the driven phases in `images` at the time: `h_7_2` is that of the exponent 2 in slot 7.
+pub(crate) fn waves(space: &PhaseSpace, driven: &[(f64, f64)], images: &[Polynomial<f64>]) -> Program {
+    let mut program = Program::default();
+    for (slot, &(frequency, start)) in space.driven_slots().zip(driven) {
+        let turned = Expression::from(frequency) * name("time");
+        let phase = if start == 0.0 { turned } else { Expression::from(start) + turned };
+        program.assign(&format!("m_{slot}"), phase);
+        let exponents = images.iter().flat_map(Polynomial::terms).map(|(monomial, _)| monomial.exponent(slot));
+        for exponent in exponents.filter(|&exponent| exponent > 0).collect::<BTreeSet<_>>() {
+            let (j, phase) = (harmonics::signed(exponent), name(&format!("m_{slot}")));
+            let angle = if j.abs() == 1 { phase } else { Expression::from(j.abs() as f64) * phase };
+            let value = call(if j < 0 { Function::Sine } else { Function::Cosine }, angle);
+            program.assign(&format!("h_{slot}_{exponent}"), value);
+        }
+    }
+    program
+}
+
 /// Prefix of the results of a program.
-const RESULT: &str = "result_";
+pub(crate) const RESULT: &str = "result_";
 
 /// The arguments of a function after its array.
 #[derive(Clone, Copy)]
-struct Others {
-    parameters: usize,
-    time: bool,
+pub(crate) struct Others {
+    pub(crate) parameters: usize,
+    pub(crate) time: bool,
 }
 
 /// The first slots of the parameters and of the driven phases in a polynomial.
 #[derive(Clone, Copy)]
-struct Slots {
-    parameters: usize,
-    driven: usize,
+pub(crate) struct Slots {
+    pub(crate) parameters: usize,
+    pub(crate) driven: usize,
 }
 
 /// A function of an array and of other arguments. Its program finds the entries in `v_0`, `v_1`, …, the parameters in `c_0`, `c_1`, … and the time in `time`.
-fn routine(
+pub(crate) fn routine(
     [name, meaning]: [&'static str; 2],
     argument: (&'static str, usize),
     others: Others,
@@ -268,7 +287,7 @@ fn sum(row: &[f64], stem: &str) -> Expression {
 }
 
 /// Assigns the names `target` with 0, 1, … from polynomials in `v_0`, `v_1`, …, the parameters and the harmonics of the driven phases.
-fn polynomials(list: &[Polynomial<f64>], slots: Slots, target: &str) -> Program {
+pub(crate) fn polynomials(list: &[Polynomial<f64>], slots: Slots, target: &str) -> Program {
     let mut program = Program::default();
     for (number, polynomial) in list.iter().enumerate() {
         let terms: Vec<(Monomial, f64)> = polynomial.terms().map(|(monomial, &c)| (monomial, c)).collect();

@@ -66,7 +66,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
 }
 
 /// |u| and |U| at the amplitude 1.
-fn size<R: RealField>(mode: &Mode<R>) -> [f64; 2] {
+pub(crate) fn size<R: RealField>(mode: &Mode<R>) -> [f64; 2] {
     match mode {
         Mode::Elliptic { ratio, .. } => [0.5 / ratio.to_float().sqrt(), ratio.to_float().sqrt()],
         _ => [1.0, 1.0],
@@ -74,6 +74,11 @@ fn size<R: RealField>(mode: &Mode<R>) -> [f64; 2] {
 }
 
 impl Domain {
+    /// The sizes of orders that are powers of the amplitude.
+    pub(crate) fn of_norms(norms: Vec<f64>) -> Self {
+        Self { norms, by_degree: Vec::new() }
+    }
+
     /// The norms ‖T_1‖, …, ‖T_N‖.
     #[must_use]
     pub fn norms(&self) -> &[f64] {

@@ -245,7 +245,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
 }
 
 /// Exponents and harmonics as a monomial; `None` for another number of them or a negative exponent.
-fn monomial(space: &PhaseSpace, exponents: &[i64]) -> Result<Option<Monomial>, Error> {
+pub(crate) fn monomial(space: &PhaseSpace, exponents: &[i64]) -> Result<Option<Monomial>, Error> {
     let Some((powers, harmonics)) = exponents.split_at_checked(space.names().len()) else { return Ok(None) };
     let powers: Option<Vec<u32>> = powers.iter().map(|&power| u32::try_from(power).ok()).collect();
     let powers = powers.filter(|_| harmonics.len() == space.driven().len());
@@ -266,7 +266,7 @@ fn value<R: RealField>(c: &R) -> Value {
 }
 
 /// A polynomial in real variables, whose terms all have to fit.
-fn reals<R: RealField>(
+pub(crate) fn reals<R: RealField>(
     what: &'static str,
     terms: &[(Vec<i64>, Value)],
     space: &PhaseSpace,

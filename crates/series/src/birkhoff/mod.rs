@@ -12,25 +12,25 @@
 //! Amer. J. Math. 58 (1936) 141; F. G. Gustavson, Astron. J. 71 (1966) 670; A. Deprit, Celest. Mech. 1 (1969) 12; A. Jorba and J. Masdemont, Physica D 132
 //! (1999) 189.
 
-mod actions;
-mod code;
+pub(crate) mod actions;
+pub(crate) mod code;
 pub(crate) mod diagonal;
-mod domain;
+pub(crate) mod domain;
 pub(crate) mod flow;
-mod json;
+pub(crate) mod json;
 pub(crate) mod map;
 pub(crate) mod matrix;
 pub(crate) mod mode;
 mod phase_space;
-mod phases;
+pub(crate) mod phases;
 mod quadratic;
 mod resonances;
 mod scaled;
 mod spectrum;
-mod text;
+pub(crate) mod text;
 mod transformation;
-mod variables;
-mod verify;
+pub(crate) mod variables;
+pub(crate) mod verify;
 mod williamson;
 
 pub use actions::{AnglePart, AngleTerms};
@@ -186,7 +186,7 @@ pub fn normalize_driven<R: RealField>(
 }
 
 /// Refuses frequencies that do not belong to the phases of `space`.
-fn check_driven<R: RealField>(driven: &[(R, f64)], space: &PhaseSpace) -> Result<(), Error> {
+pub(crate) fn check_driven<R: RealField>(driven: &[(R, f64)], space: &PhaseSpace) -> Result<(), Error> {
     let names = space.driven();
     if driven.len() != names.len() {
         return Err(Error::CountMismatch { what: "driven", found: driven.len(), expected: names.len() });

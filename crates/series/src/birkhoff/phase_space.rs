@@ -147,7 +147,7 @@ impl PhaseSpace {
     }
 
     /// The names as `String`s.
-    pub(super) fn owned_names(&self) -> Vec<String> {
+    pub(crate) fn owned_names(&self) -> Vec<String> {
         self.names.clone()
     }
 

@@ -226,7 +226,7 @@ pub(super) fn exponentials<R: RealField>(
 }
 
 /// A polynomial in exponentials of the phases, in cosines and sines: the inverse of [`exponentials`].
-pub(super) fn cosines<R: RealField>(
+pub(crate) fn cosines<R: RealField>(
     polynomial: Polynomial<R::Complex>,
     space: &PhaseSpace,
 ) -> Result<Polynomial<R::Complex>, Error> {

@@ -99,7 +99,10 @@ impl<R: RealField> BirkhoffNormalForm<R> {
 }
 
 /// Rounds the coefficients of each degree.
-fn significant<R: RealField>(polynomial: &Polynomial<R::Complex>, space: &PhaseSpace) -> Polynomial<R::Complex> {
+pub(crate) fn significant<R: RealField>(
+    polynomial: &Polynomial<R::Complex>,
+    space: &PhaseSpace,
+) -> Polynomial<R::Complex> {
     if R::EPSILON == 0.0 {
         return polynomial.clone();
     }
@@ -155,28 +158,21 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     pub fn to_latex(&self, what: Part) -> Result<String, Error> {
         let space = self.space();
         let names = space.owned_names();
-        let align = |text: &mut String, name: &str, f: &Polynomial<R::Complex>, names: &[String], primed| {
-            let harmonics = if names == space.complex_names() { Harmonics::Complex } else { Harmonics::Real };
-            align::<R>(
-                text,
-                name,
-                &significant::<R>(f, space),
-                &Names { names, driven: &space.driven(), harmonics, primed },
-            );
-        };
         let complex = |f: &Polynomial<R>| f.map(|c| R::complex(c.clone(), R::zero()));
-        let mut text = "\\begingroup\\allowdisplaybreaks\n".to_owned();
+        let line = |name: String, series, primed| Line::<R> { name, series, names: names.clone(), primed };
+        let mut lines = Vec::new();
         match what {
-            Part::Hamiltonian => match self.in_actions() {
-                Ok(actions) => align(&mut text, "K", &complex(&actions), &self.action_texts(), false),
-                Err(Error::ResonantTerm { .. }) => {
-                    align(&mut text, "K", &self.in_complex(), &space.complex_names(), false);
-                }
-                Err(other) => return Err(other),
-            },
+            Part::Hamiltonian => {
+                let (series, names) = match self.in_actions() {
+                    Ok(actions) => (complex(&actions), self.action_texts()),
+                    Err(Error::ResonantTerm { .. }) => (self.in_complex(), space.complex_names()),
+                    Err(other) => return Err(other),
+                };
+                lines.push(Line { name: "K".to_owned(), series, names, primed: false });
+            }
             Part::Generator => {
                 for m in 1..=self.order() {
-                    align(&mut text, &format!("S_{{{m}}}"), &complex(&self.generator(m)?), &names, true);
+                    lines.push(line(format!("S_{{{m}}}"), complex(&self.generator(m)?), true));
                 }
             }
             Part::Direct | Part::Inverse => {
@@ -184,13 +180,31 @@ impl<R: RealField> BirkhoffNormalForm<R> {
                 for (slot, name) in names.iter().enumerate().take(2 * space.degrees_of_freedom()) {
                     let variable = Polynomial::variable(slot)?;
                     let image = if direct { self.direct(&variable) } else { self.inverse(&variable) }?;
-                    let left = if direct { symbol(name, "") } else { symbol(name, "'") };
-                    align(&mut text, &left, &complex(&image), &names, direct);
+                    lines.push(line(symbol(name, if direct { "" } else { "'" }), complex(&image), direct));
                 }
             }
         }
-        Ok(text + "\\endgroup\n")
+        Ok(latex(space, &lines))
     }
+}
+
+/// A series with the name of its left side and the names of its variables, which are the new ones if they have primes.
+pub(crate) struct Line<R: RealField> {
+    pub(crate) name: String,
+    pub(crate) series: Polynomial<R::Complex>,
+    pub(crate) names: Vec<String>,
+    pub(crate) primed: bool,
+}
+
+/// Series as LaTeX, for a document with `\usepackage{amsmath}`.
+pub(crate) fn latex<R: RealField>(space: &PhaseSpace, lines: &[Line<R>]) -> String {
+    let mut text = "\\begingroup\\allowdisplaybreaks\n".to_owned();
+    for Line { name, series, names, primed } in lines {
+        let harmonics = if *names == space.complex_names() { Harmonics::Complex } else { Harmonics::Real };
+        let names = Names { names, driven: &space.driven(), harmonics, primed: *primed };
+        align::<R>(&mut text, name, &significant::<R>(series, space), &names);
+    }
+    text + "\\endgroup\n"
 }
 
 /// The names of the variables of a series, the driven phases in the last slots, and whether the variables are the new ones.
@@ -259,7 +273,7 @@ fn factor(name: &str, prime: &str) -> String {
 }
 
 /// A name as a LaTeX symbol. Greek letters are recognized by name. The text after an underscore, or the digits at the end, become an index.
-fn symbol(name: &str, prime: &str) -> String {
+pub(crate) fn symbol(name: &str, prime: &str) -> String {
     const GREEK: [&str; 24] = [
         "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu",
         "xi", "pi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega", "Gamma", "Omega",

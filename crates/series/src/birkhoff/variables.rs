@@ -18,7 +18,7 @@ pub(super) fn to_complex<R: RealField>(
 }
 
 /// A function of the complex variables that is real on real points, expressed in the real variables and in cosines and sines of the driven phases.
-pub(super) fn to_real<R: RealField>(
+pub(crate) fn to_real<R: RealField>(
     f: &Polynomial<R::Complex>,
     modes: &[Mode<R>],
     space: &PhaseSpace,

@@ -57,7 +57,7 @@ fn number<R: RealField>(c: &R) -> String {
 }
 
 /// Refuses two polynomials that differ, and names the first coefficient that does.
-fn same<R: RealField>(
+pub(crate) fn same<R: RealField>(
     what: &'static str,
     order: usize,
     (found, expected): (&Polynomial<R::Complex>, &Polynomial<R::Complex>),

@@ -9,6 +9,7 @@
 //!
 //! The normal form K is a polynomial in the actions, and the direct transformation at fixed actions a Fourier series in the proper angles and the driven phases.
 
+use std::ops::Add;
 use std::sync::Arc;
 
 use num_complex::Complex;
@@ -20,6 +21,7 @@ use super::motion::{DrivenHamiltonian, PeriodicMotion};
 use super::row::Periodic;
 use super::start::eigenvalues;
 use crate::birkhoff::Mode;
+use crate::birkhoff::domain::{Domain, size};
 use crate::birkhoff::map::{check, needed};
 use crate::birkhoff::matrix::symplectic_inverse;
 use crate::bracket::Poisson;
@@ -55,7 +57,7 @@ pub struct DrivenForm {
     /// K in u and U without the constant.
     hamiltonian: Polynomial<Complex<f64>>,
     /// ∂K/∂I of the modes, in the actions.
-    frequencies: Vec<Polynomial<f64>>,
+    pub(super) frequencies: Vec<Polynomial<f64>>,
     /// The old U of each mode, a function of the new variables; for saddles u as well.
     pub(super) images: Images,
 }
@@ -167,6 +169,18 @@ impl DrivenForm {
     /// - None: K has no exponent beyond those of its terms.
     pub fn in_actions(&self) -> Result<Polynomial<f64>, Error> {
         in_actions(&self.hamiltonian, &self.motion.modes)
+    }
+
+    /// The sizes of the orders, whose terms count by their largest modulus.
+    #[must_use]
+    pub fn domain(&self) -> Domain {
+        let sizes: Vec<f64> = self.modes().iter().flat_map(size).collect();
+        let bound = |(monomial, c): (Monomial, &Periodic)| {
+            let powers = sizes.iter().enumerate().map(|(slot, size)| size.powi(monomial.exponent(slot) as i32));
+            c.size() * powers.product::<f64>()
+        };
+        let generators = (1..=self.order()).filter_map(|m| self.transform.scaled_generator(m));
+        Domain::of_norms(generators.map(|generator| generator.terms().map(bound).fold(0.0, f64::add)).collect())
     }
 
     /// Its memory, in bytes.

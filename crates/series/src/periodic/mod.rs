@@ -2,9 +2,10 @@
 //!
 //! `row` is a coefficient that is a periodic function, held at the times of a `grid`. `motion` finds the periodic motion, `frame` Floquet's frame about it, from a `start` by the
 //! matrix of `monodromy`. `form` expands the Hamiltonian there and normalizes it with the `divisors`; `images` are the old variables in the new ones. `state` transforms states,
-//! `fourier` gives the motion at fixed actions, `transport` expresses functions. `polynomial` is a Hamiltonian that is a polynomial; other functions implement
+//! `fourier` gives the motion at fixed actions, `transport` expresses functions. `named` has the names of variables and phases, text and JSON, `code` the source text. `polynomial` is a Hamiltonian that is a polynomial; other functions implement
 //! [`DrivenHamiltonian`].
 
+mod code;
 mod divisors;
 mod form;
 mod fourier;
@@ -13,6 +14,7 @@ mod grid;
 mod images;
 mod monodromy;
 mod motion;
+mod named;
 mod polynomial;
 mod raw;
 mod row;
@@ -25,6 +27,7 @@ pub use form::{DrivenForm, DrivenOptions};
 pub use fourier::Harmonic;
 pub use grid::Grid;
 pub use motion::{DrivenHamiltonian, PeriodicMotion};
+pub use named::{DrivenNormalForm, MAX_DRIVEN_ORDER};
 pub use polynomial::{SampledHamiltonian, terms_at};
 pub use raw::RawPeriodic;
 pub use row::Periodic;

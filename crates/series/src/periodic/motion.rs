@@ -105,6 +105,15 @@ impl PeriodicMotion {
     pub(super) fn variables(&self) -> Result<Vec<Polynomial<Periodic>>, Error> {
         self.origin.iter().zip(&self.change).map(|(origin, row)| form(origin, row)).collect()
     }
+
+    /// w = P⁻¹ (x − x̄) as forms in the variables q₁, p₁, ….
+    pub(super) fn deviations(&self) -> Result<Vec<Polynomial<Periodic>>, Error> {
+        let deviation = |row: &Vec<Periodic>| {
+            let products = row.iter().zip(&self.origin).map(|(c, x)| c.clone() * x.clone());
+            form(&-products.fold(Periodic::zero(), |sum, product| sum + product), row)
+        };
+        symplectic_inverse(&self.change).iter().map(deviation).collect()
+    }
 }
 
 /// For each phase the largest of the last harmonics of functions, over the size of each function that is above 1.

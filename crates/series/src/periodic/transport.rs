@@ -8,7 +8,6 @@ use crate::birkhoff::Mode;
 use crate::birkhoff::map::check;
 use crate::birkhoff::mode::{complex_in_real, real_in_complex};
 use crate::error::Error;
-use crate::monomial::Monomial;
 use crate::polynomial::{Polynomial, Truncation};
 use crate::triangle::{LieTransform, Progress};
 
@@ -26,14 +25,22 @@ impl DrivenForm {
         progress: &mut Progress<'_>,
     ) -> Result<Polynomial<f64>, Error> {
         check("phases", phases, self.grid().phases())?;
+        let weights = self.grid().weights(phases);
+        let sum = self.direct_rows(f, progress)?.map(|c| c.weighted(&weights));
+        real(&sum, &complex_in_real(self.modes())?)
+    }
+
+    /// A function f of the old variables in u₁, U₁, … at all times of the grid.
+    pub(super) fn direct_rows(
+        &self,
+        f: &Polynomial<f64>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Polynomial<Periodic>, Error> {
         let variables = self.motion.variables()?;
         let replacements: Vec<_> = variables.iter().enumerate().collect();
         let highest = self.order() as u32 + 1;
         let f = f.map(|&c| Periodic::real(c)).compose(&replacements, Some(&Truncation::total(highest)))?;
-        let weights = self.grid().weights(phases);
-        let sum = self.transported(&f, &weights, |transform, part| transform.inverse_with(part, progress))?;
-        let forms = complex_in_real(self.modes())?;
-        real(&sum, &forms)
+        self.transported(&f, |transform, part| transform.inverse_with(part, progress))
     }
 
     /// A function f of the real normal variables at phases \[rad\], in the old variables q₁, p₁, …
@@ -47,39 +54,36 @@ impl DrivenForm {
         progress: &mut Progress<'_>,
     ) -> Result<Polynomial<f64>, Error> {
         check("phases", phases, self.grid().phases())?;
+        let weights = self.grid().weights(phases);
+        let at = |f: &Polynomial<Periodic>| f.map(|c| c.weighted(&weights));
+        let sum = at(&self.inverse_rows(f, progress)?);
+        real(&sum, &self.motion.deviations()?.iter().map(at).collect::<Vec<_>>())
+    }
+
+    /// A function f of the real normal variables, in the complex variables w = P⁻¹ (x − x̄) of the old ones at all times of the grid.
+    pub(super) fn inverse_rows(
+        &self,
+        f: &Polynomial<f64>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Polynomial<Periodic>, Error> {
         let forms = real_in_complex(self.modes())?;
         let replacements: Vec<_> = forms.iter().enumerate().collect();
         let f = f.map(|&c| Complex::from(c)).compose(&replacements, None)?.map(|&c| Periodic::Constant(c));
-        let weights = self.grid().weights(phases);
-        let sum = self.transported(&f, &weights, |transform, part| transform.direct_with(part, progress))?;
-        // w = P⁻¹ (x − x̄)
-        let [_, inverse] = self.frame(phases);
-        let origin = self.periodic(phases);
-        let mut forms = Vec::new();
-        for row in &inverse {
-            let shift: Complex<f64> = row.iter().zip(&origin).map(|(c, x)| c * x).sum();
-            let mut form = Polynomial::constant(-shift);
-            for (slot, c) in row.iter().enumerate() {
-                form.add_term(Monomial::ONE.with(slot, 1)?, c);
-            }
-            forms.push(form);
-        }
-        real(&sum, &forms)
+        self.transported(&f, |transform, part| transform.direct_with(part, progress))
     }
 
-    /// The sum of the series of the homogeneous parts of f, all to the degree of the order plus 1, at one time.
+    /// The sum of the series of the homogeneous parts of f, all to the degree of the order plus 1.
     fn transported(
         &self,
         f: &Polynomial<Periodic>,
-        weights: &[f64],
         mut series: impl FnMut(&LieTransform<Periodic>, &Polynomial<Periodic>) -> Result<Vec<Polynomial<Periodic>>, Error>,
-    ) -> Result<Complexes, Error> {
+    ) -> Result<Polynomial<Periodic>, Error> {
         let highest = self.order() as u32 + 1;
-        let mut sum = f.homogeneous_part(0).map(|c| c.weighted(weights));
+        let mut sum = f.homogeneous_part(0);
         for degree in 1..=f.degree().unwrap_or(0).min(highest) {
             let transform = self.transform.truncated((highest - degree) as usize);
             for term in series(&transform, &f.homogeneous_part(degree))? {
-                sum += &term.map(|c| c.weighted(weights));
+                sum += &term;
             }
         }
         Ok(sum)

@@ -1,0 +1,327 @@
+//! A driven normal form with the names of its variables and phases: as polynomials in cosines and sines, as text, LaTeX and JSON.
+//!
+//! ```text
+//! { "format": "andoyer-driven", "version": 1, "order": N, "variables": [["q", "p"], …],
+//!   "driven": [["M", n, M₀], …], "smallest_divisor": 1e-6,
+//!   "hamiltonian": [[[exponents, j …], c], …],                 cos jM for j ≥ 0 and sin |j|M for j < 0
+//!   "actions": [[[exponents], c], …] }                         K in the actions
+//! ```
+//!
+//! Reading computes the form of the Hamiltonian in the text again, and compares K.
+
+use num_complex::Complex;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::form::{DrivenForm, DrivenOptions};
+use super::motion::DrivenHamiltonian;
+use super::polynomial::{SampledHamiltonian, terms_at};
+use super::row::Periodic;
+use crate::birkhoff::actions::action_texts;
+use crate::birkhoff::json::reals;
+use crate::birkhoff::phases::cosines;
+use crate::birkhoff::text::{Line, latex, significant, symbol};
+use crate::birkhoff::variables::to_real;
+use crate::birkhoff::verify::same;
+use crate::birkhoff::{PhaseSpace, check_driven};
+use crate::error::Error;
+use crate::harmonics;
+use crate::latex::Part;
+use crate::monomial::{MAX_EXPONENT, Monomial};
+use crate::polynomial::Polynomial;
+use crate::triangle::{Progress, quiet};
+
+/// The highest order.
+pub const MAX_DRIVEN_ORDER: usize = 60;
+/// The size of the last harmonics.
+const TAIL: f64 = 1e-12;
+/// Harmonics below this part of the largest one of their coefficient are rounding errors.
+const NEGLIGIBLE: f64 = 1e-14;
+const FORMAT: &str = "andoyer-driven";
+const VERSION: u64 = 1;
+
+/// The normal form of a polynomial Hamiltonian about its periodic motion, with its names.
+#[derive(Clone, Debug)]
+pub struct DrivenNormalForm {
+    space: PhaseSpace,
+    hamiltonian: Polynomial<f64>,
+    starts: Vec<f64>,
+    smallest_divisor: f64,
+    form: DrivenForm,
+}
+
+/// Two forms are equal if they are of the same Hamiltonian and order.
+impl PartialEq for DrivenNormalForm {
+    fn eq(&self, other: &Self) -> bool {
+        let key = |form: &Self| (form.form.order(), form.starts.clone(), form.smallest_divisor, form.rates());
+        key(self) == key(other) && self.space == other.space && self.hamiltonian == other.hamiltonian
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    format: String,
+    version: u64,
+    order: usize,
+    variables: Vec<(String, String)>,
+    driven: Vec<(String, f64, f64)>,
+    smallest_divisor: f64,
+    hamiltonian: Vec<(Vec<i64>, Value)>,
+    actions: Vec<(Vec<i64>, Value)>,
+}
+
+impl DrivenNormalForm {
+    /// The normal form of a Hamiltonian of `space`, whose driven phases have these rates \[rad per unit of time\] and values at time 0 \[rad\].
+    ///
+    /// ```
+    /// use andoyer_series::PhaseSpace;
+    /// use andoyer_series::periodic::DrivenNormalForm;
+    /// use andoyer_series::progress::quiet;
+    /// let space = PhaseSpace::new(&[("x", "p")])?.with_driven(&["M"])?;
+    /// let duffing = space.parse::<f64>("(p^2 + x^2)/2 + x^4/4 - 3/10*x*cos(M)")?;
+    /// let form = DrivenNormalForm::new(&duffing, 6, &space, &[(0.4, 0.0)], 1e-6, &mut quiet)?;
+    /// assert!((form.form().periodic(&[0.0])[0] - 0.354788).abs() < 1e-6);
+    /// assert_eq!(DrivenNormalForm::from_json(&form.to_json()?, &mut quiet)?, form);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - those of [`DrivenForm::new`]; a rate that is 0 or not finite: [`Error::DrivenUnsupported`], [`Error::NotFinite`]; order 61: [`Error::OrderTooLarge`].
+    pub fn new(
+        hamiltonian: &Polynomial<f64>,
+        order: usize,
+        space: &PhaseSpace,
+        phases: &[(f64, f64)],
+        smallest_divisor: f64,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Error> {
+        let at = |phases: &[f64]| terms_at(hamiltonian, space, phases);
+        let system = SampledHamiltonian::new(space.degrees_of_freedom(), at);
+        let form = computed(&system, order, space, phases, smallest_divisor, progress)?;
+        let starts = phases.iter().map(|(_, start)| *start).collect();
+        Ok(Self { space: space.clone(), hamiltonian: hamiltonian.clone(), starts, smallest_divisor, form })
+    }
+
+    /// The same of a polynomial Hamiltonian that is known at the times of a grid.
+    ///
+    /// # Errors
+    /// - those of [`new`](Self::new) and of the Hamiltonian.
+    pub fn of(
+        system: &dyn DrivenHamiltonian,
+        order: usize,
+        space: &PhaseSpace,
+        phases: &[(f64, f64)],
+        smallest_divisor: f64,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Error> {
+        let form = computed(system, order, space, phases, smallest_divisor, progress)?;
+        let variables: Vec<_> = (0..2 * system.pairs()).map(Polynomial::variable).collect::<Result<_, _>>()?;
+        let rows = system.expanded(form.grid(), &variables, MAX_EXPONENT)?;
+        let starts = phases.iter().map(|(_, start)| *start).collect();
+        let mut named = Self { space: space.clone(), hamiltonian: Polynomial::zero(), starts, smallest_divisor, form };
+        named.hamiltonian = named.in_waves(&rows)?;
+        Ok(named)
+    }
+
+    /// The form without names.
+    #[must_use]
+    pub fn form(&self) -> &DrivenForm {
+        &self.form
+    }
+
+    /// The variables and the driven phases.
+    #[must_use]
+    pub fn space(&self) -> &PhaseSpace {
+        &self.space
+    }
+
+    /// The rate of each driven phase and its value at time 0.
+    #[must_use]
+    pub fn driven(&self) -> Vec<(f64, f64)> {
+        self.rates().into_iter().zip(self.starts.iter().copied()).collect()
+    }
+
+    fn rates(&self) -> Vec<f64> {
+        self.form.grid().rates()
+    }
+
+    /// The driven phases at a time \[rad\].
+    #[must_use]
+    pub fn phases(&self, time: f64) -> Vec<f64> {
+        self.driven().iter().map(|(rate, start)| start + rate * time).collect()
+    }
+
+    /// The old variable of a slot in the new ones, with cosines and sines of the phases.
+    ///
+    /// # Errors
+    /// - exponents that outgrow a monomial: [`Error::ExponentOverflow`].
+    pub fn direct_series(&self, slot: usize) -> Result<Polynomial<f64>, Error> {
+        self.real_in_waves(&self.form.direct_rows(&Polynomial::variable(slot)?, &mut quiet)?)
+    }
+
+    /// The new variable of a slot in the old ones, with cosines and sines of the phases.
+    ///
+    /// # Errors
+    /// - exponents that outgrow a monomial: [`Error::ExponentOverflow`].
+    pub fn inverse_series(&self, slot: usize) -> Result<Polynomial<f64>, Error> {
+        let rows = self.form.inverse_rows(&Polynomial::variable(slot)?, &mut quiet)?;
+        let deviations = self.form.motion.deviations()?;
+        self.in_waves(&rows.compose(&deviations.iter().enumerate().collect::<Vec<_>>(), None)?)
+    }
+
+    /// A function in u₁, U₁, … as one of the real variables of the modes.
+    pub(super) fn real_in_waves(&self, rows: &Polynomial<Periodic>) -> Result<Polynomial<f64>, Error> {
+        Ok(to_real(&self.exponentials(rows)?, self.form.modes(), &self.space)?.filter(|_, c| *c != 0.0))
+    }
+
+    /// A real function with coefficients in cosines and sines.
+    pub(super) fn in_waves(&self, rows: &Polynomial<Periodic>) -> Result<Polynomial<f64>, Error> {
+        let complex = cosines::<f64>(self.exponentials(rows)?, &self.space)?;
+        Ok(complex.map(|c| c.re).filter(|_, c| *c != 0.0))
+    }
+
+    /// The coefficients as sums of e^{ijM}.
+    fn exponentials(&self, rows: &Polynomial<Periodic>) -> Result<Polynomial<Complex<f64>>, Error> {
+        let (grid, mut sum) = (self.form.grid(), Polynomial::zero());
+        for (monomial, c) in rows.terms() {
+            let all = grid.harmonics(c);
+            let largest = all.iter().map(|c| c.norm()).fold(0.0, f64::max);
+            for (index, c) in all.iter().enumerate().filter(|(_, c)| c.norm() > NEGLIGIBLE * largest) {
+                let slots = self.space.driven_slots().zip(grid.multiples(index));
+                let monomial = slots.into_iter().try_fold(monomial, |all, (slot, j)| harmonics::with(all, slot, j));
+                sum.add_term(monomial?, c);
+            }
+        }
+        Ok(sum)
+    }
+
+    /// A part as LaTeX, for a document with `\usepackage{amsmath}`, as of [`BirkhoffNormalForm`](crate::BirkhoffNormalForm::to_latex).
+    ///
+    /// # Errors
+    /// - exponents that outgrow a monomial: [`Error::ExponentOverflow`].
+    pub fn to_latex(&self, what: Part) -> Result<String, Error> {
+        let names = self.space.owned_names();
+        let complex = |f: &Polynomial<f64>| f.map(|&c| Complex::from(c));
+        let line = |name: String, series: &Polynomial<f64>, primed| Line::<f64> {
+            name,
+            series: complex(series),
+            names: names.clone(),
+            primed,
+        };
+        let mut lines = Vec::new();
+        match what {
+            Part::Hamiltonian => {
+                let names = action_texts(self.form.modes(), &self.space);
+                lines.push(Line { names, ..line("K".to_owned(), &self.form.in_actions()?, false) });
+            }
+            Part::Generator => {
+                for m in 1..=self.form.order() {
+                    let generator = self.form.transform.generator(m).unwrap_or_default();
+                    lines.push(line(format!("S_{{{m}}}"), &self.real_in_waves(&generator)?, true));
+                }
+            }
+            Part::Direct => {
+                for (slot, name) in names.iter().enumerate() {
+                    lines.push(line(symbol(name, ""), &self.direct_series(slot)?, true));
+                }
+            }
+            Part::Inverse => {
+                for (slot, name) in names.iter().enumerate() {
+                    lines.push(line(symbol(name, "'"), &self.inverse_series(slot)?, false));
+                }
+            }
+        }
+        Ok(latex(&self.space, &lines))
+    }
+
+    /// This form as JSON text.
+    ///
+    /// # Errors
+    /// - None for an existing form; writing JSON fails only if memory runs out.
+    pub fn to_json(&self) -> Result<String, Error> {
+        let names = self.space.names();
+        let term = |(m, c): (Monomial, &f64)| {
+            let powers = m.exponents().into_iter().take(names.len()).map(i64::from);
+            (powers.chain(self.space.harmonics(m)).collect(), Value::from(*c))
+        };
+        let action = |(m, c): (Monomial, &f64)| {
+            (m.exponents().into_iter().take(names.len() / 2).map(i64::from).collect(), Value::from(*c))
+        };
+        let driven = self.space.driven().into_iter().zip(self.driven());
+        let document = Document {
+            format: FORMAT.to_owned(),
+            version: VERSION,
+            order: self.form.order(),
+            variables: names.chunks(2).map(|pair| (pair[0].to_owned(), pair[1].to_owned())).collect(),
+            driven: driven.map(|(name, (rate, start))| (name.to_owned(), rate, start)).collect(),
+            smallest_divisor: self.smallest_divisor,
+            hamiltonian: self.hamiltonian.terms().map(term).collect(),
+            actions: self.form.in_actions()?.terms().map(action).collect(),
+        };
+        serde_json::to_string(&document).map_err(Error::json)
+    }
+
+    /// Reads the text that [`to_json`](Self::to_json) wrote, computes the form again and compares K.
+    ///
+    /// # Errors
+    /// - no JSON, another format or version, terms that do not fit: as of [`BirkhoffNormalForm`](crate::BirkhoffNormalForm::from_json);
+    /// - K differs from that of the Hamiltonian by more than 1e-8 of its largest coefficient: [`Error::CoefficientWrong`]; the errors of [`new`](Self::new).
+    pub fn from_json(text: &str, progress: &mut Progress<'_>) -> Result<Self, Error> {
+        #[derive(Deserialize)]
+        struct Header {
+            format: String,
+            version: u64,
+        }
+        let Header { format, version } = serde_json::from_str(text).map_err(Error::json)?;
+        if format != FORMAT || version != VERSION {
+            return Err(Error::FormatUnknown { format, version, known_format: FORMAT, known_version: VERSION });
+        }
+        let document: Document = serde_json::from_str(text).map_err(Error::json)?;
+        let pairs: Vec<(&str, &str)> = document.variables.iter().map(|(q, p)| (q.as_str(), p.as_str())).collect();
+        let names: Vec<&str> = document.driven.iter().map(|(name, ..)| name.as_str()).collect();
+        let space = PhaseSpace::new(&pairs)?.with_driven(&names)?;
+        let hamiltonian = reals("original hamiltonian", &document.hamiltonian, &space, |_| true)?;
+        let phases: Vec<(f64, f64)> = document.driven.iter().map(|&(_, rate, start)| (rate, start)).collect();
+        let form = Self::new(&hamiltonian, document.order, &space, &phases, document.smallest_divisor, progress)?;
+        // Each action has the slot of its number.
+        let mut actions = Polynomial::zero();
+        for (exponents, c) in &document.actions {
+            let exponents: Vec<i64> = exponents.iter().copied().chain(vec![0; pairs.len() + names.len()]).collect();
+            actions += &reals("hamiltonian", &[(exponents, c.clone())], &space, |_| true)?;
+        }
+        let complex = |f: &Polynomial<f64>| f.map(|&c| Complex::from(c));
+        same::<f64>(
+            "hamiltonian",
+            document.order,
+            (&complex(&actions), &complex(&form.form.in_actions()?)),
+            pairs.len(),
+        )?;
+        Ok(form)
+    }
+}
+
+/// Prints K in the actions, as of a form without driven phases.
+impl std::fmt::Display for DrivenNormalForm {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let actions = self.form.in_actions().map_err(|_| std::fmt::Error)?;
+        let actions = significant::<f64>(&actions.map(|&c| Complex::from(c)), &self.space);
+        formatter.write_str(&self.space.text(&actions, &action_texts(self.form.modes(), &self.space)))
+    }
+}
+
+fn computed(
+    system: &dyn DrivenHamiltonian,
+    order: usize,
+    space: &PhaseSpace,
+    phases: &[(f64, f64)],
+    smallest_divisor: f64,
+    progress: &mut Progress<'_>,
+) -> Result<DrivenForm, Error> {
+    if order > MAX_DRIVEN_ORDER {
+        return Err(Error::OrderTooLarge { order, bound: MAX_DRIVEN_ORDER });
+    }
+    check_driven(phases, space)?;
+    let rates: Vec<f64> = phases.iter().map(|(rate, _)| *rate).collect();
+    DrivenForm::new(system, &rates, DrivenOptions { order, tolerance: TAIL, smallest_divisor }, progress)
+}
