@@ -147,11 +147,11 @@ impl System {
     }
 }
 
-/// Of so many random systems: how many have a form, and of these how many keep the actions to the power that the order promises.
-fn kept(count: usize, seed: u64) -> Result<[usize; 2], Error> {
+/// How many systems keep the actions to the power that the order promises, of so many that have a form without a small divisor.
+fn kept(count: usize, seed: u64) -> Result<usize, Error> {
     let mut draw = Draw(seed);
     let (mut forms, mut good) = (0, 0);
-    for number in 0..count {
+    while forms < count {
         let system = System::random(&mut draw)?;
         let form = match system.form() {
             Err(Error::SmallDivisor { .. } | Error::MultiplierUnsupported { .. } | Error::NoPeriodicMotion { .. }) => {
@@ -164,28 +164,28 @@ fn kept(count: usize, seed: u64) -> Result<[usize; 2], Error> {
         let (whole, half) = (whole?, half?);
         // Rounding of the states over the amplitude, and of the integration.
         let power = (whole / half.max(1e-15)).log2();
-        forms += 1;
         let holds = whole < 1e-13 || power > ORDER as f64 + 2.5;
-        good += usize::from(holds);
         if !holds {
-            eprintln!("{number}: {whole:e} and {half:e}, power {power:.2}, {} times", form.form().grid().times());
+            eprintln!("{forms}: {whole:e} and {half:e}, power {power:.2}, {} times", form.form().grid().times());
         }
+        forms += 1;
+        good += usize::from(holds);
     }
-    Ok([forms, good])
+    Ok(good)
 }
 
 #[test]
 fn actions_are_constant_to_the_power_that_the_order_promises() -> Result<(), Error> {
-    let [forms, good] = kept(40, 0x5eed_0001)?;
-    assert!(forms >= 20 && 100 * good >= 99 * forms, "{good} of {forms}");
+    assert_eq!(kept(12, 0x5eed_0001)?, 12);
     Ok(())
 }
 
-/// `cargo test --release -p andoyer-tests --test truths -- --ignored driven`: a minute.
+/// `cargo test --package andoyer-tests --test truths -- --ignored driven`
 #[test]
-#[ignore = "a minute in release"]
+#[ignore = "some minutes"]
 fn actions_of_a_thousand_systems_are_constant_to_that_power() -> Result<(), Error> {
-    let [forms, good] = kept(1000, 0x5eed_0002)?;
-    assert!(forms >= 500 && 100 * good >= 99 * forms, "{good} of {forms}");
+    let good = kept(1000, 0x5eed_0002)?;
+    eprintln!("{good} of 1000");
+    assert!(good >= 990, "{good}");
     Ok(())
 }

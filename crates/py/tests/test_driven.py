@@ -171,7 +171,9 @@ def test_text_dictionary_and_sympy_are_the_same_hamiltonian():
     driven = {"M": (F(37, 100), 0.25)}
     forms = [normalize(h, 3, [("x", "p")], driven=driven, exact=True) for h in (DUFFING, terms, expression)]
     forms.append(normalize(expression, 3, [(x, p)], driven={M: ("37/100", 0.25)}, exact=True))
-    forms.append(normalize(expression.subs(x * sympy.cos(M), x * sympy.cos(M) * (sympy.cos(M) ** 2 + sympy.sin(M) ** 2)), 3, [("x", "p")], driven=driven, exact=True))
+    forms.append(
+        normalize(expression.subs(x * sympy.cos(M), x * sympy.cos(M) * (sympy.cos(M) ** 2 + sympy.sin(M) ** 2)), 3, [("x", "p")], driven=driven, exact=True)
+    )
     assert all(form == forms[0] for form in forms) and forms[0].exact
     assert forms[0].driven == {"M": (F(37, 100), 0.25)} and repr(forms[0]) == "<BirkhoffNormalForm of order 3 in x, p, M, exact>"
     assert not normalize(DUFFING, 1, [("x", "p")], driven={"M": 0.37}, resonances=[]).exact

@@ -191,9 +191,9 @@ def test_code_does_what_the_form_does(case, tmp_path):
     n = len(normal)
     main = {
         "c": f"#include <stdio.h>\nint main(void) {{ const double normal[{n}] = {{{', '.join(map(repr, normal.tolist()))}}}; double state[{n}], back[{n}];"
-        f" from_normal(normal, 1.7, state); to_normal(state, 1.7, back); for (int k = 0; k < {n}; ++k) printf(\"%.17g %.17g \", state[k], back[k]); return 0; }}\n",
+        f' from_normal(normal, 1.7, state); to_normal(state, 1.7, back); for (int k = 0; k < {n}; ++k) printf("%.17g %.17g ", state[k], back[k]); return 0; }}\n',
         "rust": f"fn main() {{ let state = from_normal(&[{', '.join(map(repr, normal.tolist()))}], 1.7); let back = to_normal(&state, 1.7);"
-        " assert!(frequencies(&actions(&back))[0] != 0.0); for (a, b) in state.iter().zip(&back) { print!(\"{a:e} {b:e} \"); } }\n",
+        ' assert!(frequencies(&actions(&back))[0] != 0.0); for (a, b) in state.iter().zip(&back) { print!("{a:e} {b:e} "); } }\n',
     }
     compilers = {"c": ["cc", "-std=c99", "-Wall", "-Wextra", "-O1"], "rust": ["rustc", "--edition", "2021"]}
     for language, command in compilers.items():
