@@ -8,8 +8,11 @@ use andoyer_series::birkhoff::Mode;
 use andoyer_series::periodic::{Divisor, DrivenForm, DrivenNormalForm as Inner, SampledHamiltonian, terms_at};
 use andoyer_series::print::Part;
 use andoyer_series::progress::Progress;
+use andoyer_series::real_field::RealField;
 use andoyer_series::{Error as Algebra, Monomial, PhaseSpace, Polynomial};
+use num_rational::BigRational;
 use numpy::{IntoPyArray, PyArray1, PyArrayDyn};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
@@ -18,7 +21,7 @@ use crate::birkhoff::frequency;
 use crate::computing::detached;
 use crate::domain::Domain;
 use crate::error;
-use crate::expression::{Expression, actions, real};
+use crate::expression::{Expression, actions, number, real};
 use crate::form::rounded;
 use crate::progress;
 
@@ -126,19 +129,67 @@ impl Sampler<'_> {
     }
 }
 
-/// A driven Hamiltonian as it is given: text and a callable.
-pub(crate) struct Given<'a> {
+/// The driven phases as they are given.
+pub(crate) struct Given {
     pub(crate) names: Vec<String>,
     /// The rate of each phase and its value at time 0.
-    pub(crate) phases: Vec<(f64, f64)>,
-    pub(crate) samples: Option<&'a Py<PyAny>>,
+    pub(crate) phases: Vec<(BigRational, f64)>,
+    samples: Option<Py<PyAny>>,
+    /// Whether they are a [`Driven`].
+    sampled: bool,
 }
 
-impl<'a> Given<'a> {
-    pub(crate) fn of(driven: &'a Driven) -> Self {
-        let phases = driven.rates.iter().map(|&rate| (rate, 0.0)).collect();
-        Self { names: driven.names.clone(), phases, samples: driven.samples.as_ref() }
+impl Given {
+    /// Those of a dict or of a [`Driven`], and whether a rate is a float.
+    pub(crate) fn of(driven: Option<&Bound<'_, PyAny>>) -> PyResult<(Self, bool)> {
+        let mut given = Self { names: Vec::new(), phases: Vec::new(), samples: None, sampled: false };
+        let Some(driven) = driven else { return Ok((given, false)) };
+        if let Ok(driven) = driven.cast::<Driven>() {
+            let Driven { rates, samples, names } = driven.get();
+            for &rate in rates {
+                given.phases.push((number("rate", rate.into_pyobject(driven.py())?.as_any())?.0, 0.0));
+            }
+            let samples = samples.as_ref().map(|samples| samples.clone_ref(driven.py()));
+            return Ok((Self { names: names.clone(), samples, sampled: true, ..given }, true));
+        }
+        let Ok(dict) = driven.cast::<PyDict>() else { return Err(wrong(driven)) };
+        let mut any_float = false;
+        for (name, value) in dict {
+            let name = name.str()?.to_string();
+            let argument = format!("driven[{name:?}]");
+            let pair = value.cast::<PyTuple>().ok();
+            if let Some(pair) = pair.filter(|pair| pair.len() != 2) {
+                let message =
+                    format!("{argument} has {} entries: it must be a frequency or (frequency, phase)", pair.len());
+                return Err(error::input("driven", pair.len(), 2_usize, message));
+            }
+            let (rate, start) = match pair {
+                Some(pair) => (pair.get_item(0)?, crate::array::number(&argument, &pair.get_item(1)?)?),
+                None => (value.clone(), 0.0),
+            };
+            let (rate, float) = number(&argument, &rate)?;
+            given.names.push(name);
+            given.phases.push((rate, start));
+            any_float |= float;
+        }
+        Ok((given, any_float))
     }
+
+    /// Whether the form is about the periodic motion: `in_orders` is an option that only the form about the equilibrium has.
+    pub(crate) fn is_about_the_periodic_motion(&self, in_orders: Option<&'static str>) -> PyResult<bool> {
+        match in_orders {
+            Some(name) if self.sampled => {
+                let message = format!("{name}: a form with a Driven has none; driven={{name: rate}} takes them");
+                Err(error::input(name, "given", "None", message))
+            }
+            _ => Ok(in_orders.is_none() && !self.phases.is_empty()),
+        }
+    }
+}
+
+fn wrong(driven: &Bound<'_, PyAny>) -> PyErr {
+    let kind = driven.get_type().name().map_or_else(|_| "?".to_owned(), |name| name.to_string());
+    PyTypeError::new_err(format!("driven must be a dict of rates by name or a Driven, not {kind}"))
 }
 
 /// The normal form of `normalize` about a periodic motion.
@@ -147,17 +198,18 @@ pub(crate) fn normalized(
     hamiltonian: &Bound<'_, PyAny>,
     order: usize,
     space: &PhaseSpace,
-    Given { names, phases, samples }: Given<'_>,
+    Given { names, phases, samples, .. }: Given,
     smallest_divisor: f64,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<DrivenNormalForm> {
+    let phases: Vec<(f64, f64)> = phases.iter().map(|(rate, start)| (rate.to_float(), *start)).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let space = space.clone().with_driven(&names).map_err(|problem| error::algebra_of("driven", problem))?;
     let text = match hamiltonian.is_none() {
         true => Polynomial::zero(),
         false => rounded(&Expression::new("hamiltonian", hamiltonian, &space)?.polynomial),
     };
-    let Some(callable) = samples else {
+    let Some(callable) = &samples else {
         let compute = |tell: &mut Progress<'_>| Inner::new(&text, order, &space, &phases, smallest_divisor, tell);
         return Ok(DrivenNormalForm { form: progress::reported(py, progress, compute)? });
     };

@@ -4,15 +4,15 @@ use andoyer_series::birkhoff::Resonances;
 use andoyer_series::periodic::MAX_DRIVEN_ORDER;
 use andoyer_series::progress::Progress;
 use andoyer_series::real_field::RealField;
-use andoyer_series::{Error as Algebra, MAX_EXPONENT, PhaseSpace, normalize_driven};
+use andoyer_series::{Error as Algebra, MAX_EXPONENT, PhaseSpace, Polynomial, normalize_driven};
 use num_rational::BigRational;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString, PyTuple};
+use pyo3::types::{PyDict, PyString};
 
 use crate::birkhoff::BirkhoffNormalForm;
-use crate::driven::{Driven, Given};
+use crate::driven::Given;
 use crate::error;
 use crate::expression::{Expression, number};
 use crate::form::{Form, rounded};
@@ -110,86 +110,81 @@ pub(crate) fn normalize(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
     let space = space(variables, parameters, degrees)?;
-    if let Some(driven) = driven.and_then(|driven| driven.cast::<Driven>().ok()) {
-        let given = [
-            ("parameters", parameters.is_some()),
-            ("degrees", degrees.is_some()),
-            ("frequency", frequency.is_some()),
-            ("resonances", resonances.is_some()),
-            ("keep", keep.is_some()),
-            ("exact", exact.is_some()),
-        ];
-        if let Some((name, _)) = given.into_iter().find(|(_, given)| *given) {
-            let message = format!("{name}: a form with a Driven has none; driven={{name: rate}} takes them");
-            return Err(error::input(name, "given", "None", message));
-        }
+    let in_orders = [
+        ("parameters", parameters.is_some()),
+        ("degrees", degrees.is_some()),
+        ("frequency", frequency.is_some()),
+        ("resonances", resonances.is_some()),
+        ("keep", keep.is_some()),
+        ("exact", exact.is_some()),
+    ];
+    let in_orders = in_orders.into_iter().find(|(_, given)| *given).map(|(name, _)| name);
+    let (given, driven_float) = Given::of(driven)?;
+    if given.is_about_the_periodic_motion(in_orders)? {
         let order = self::order("order", order, 0, MAX_DRIVEN_ORDER)?;
-        let given = Given::of(driven.get());
         let form = crate::driven::normalized(py, hamiltonian, order, &space, given, smallest_divisor, progress)?;
         return form.into_py_any(py);
     }
-    let driven = driven.map(|driven| driven.cast::<PyDict>().map_err(|_| wrong_driven(driven))).transpose()?;
-    let (phases, driven_float) = phases(driven)?;
-    let in_orders = parameters.is_some() || degrees.is_some() || frequency.is_some() || resonances.is_some();
-    if !(phases.is_empty() || in_orders || keep.is_some() || exact.is_some()) {
-        let order = self::order("order", order, 0, MAX_DRIVEN_ORDER)?;
-        let names = phases.iter().map(|(name, ..)| name.clone()).collect();
-        let phases = phases.iter().map(|(_, rate, start)| (rate.to_float(), *start)).collect();
-        let given = Given { names, phases, samples: None };
-        let form = crate::driven::normalized(py, hamiltonian, order, &space, given, smallest_divisor, progress)?;
-        return form.into_py_any(py);
-    }
-    let names: Vec<&str> = phases.iter().map(|(name, ..)| name.as_str()).collect();
+    let names: Vec<&str> = given.names.iter().map(String::as_str).collect();
     let space = space.with_driven(&names).map_err(|problem| error::algebra_of("driven", problem))?;
-    let driven: Vec<_> = phases.iter().map(|(_, frequency, phase)| (frequency.clone(), *phase)).collect();
     let symbols = symbols(py, hamiltonian, variables, parameters)?;
     let order = self::order("order", order, 0, <BigRational as RealField>::MAX_ORDER)?;
     let Expression { polynomial, float } = Expression::new("hamiltonian", hamiltonian, &space)?;
     let (values, given_float) = values(parameters)?;
     let values: Vec<_> = values.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
-    let given = space.with_values(&polynomial, &values);
-    let (polynomial, space) = given.map_err(|problem| error::algebra_of("parameters", problem))?;
-    let float = float || given_float || driven_float;
+    let valued = space.with_values(&polynomial, &values);
+    let (polynomial, space) = valued.map_err(|problem| error::algebra_of("parameters", problem))?;
     let (polynomial, space) = match frequency {
         None => (polynomial, space),
         Some((letter, root)) => {
             space.scaled(&polynomial, &letter, &root).map_err(|problem| error::algebra_of("frequency", problem))?
         }
     };
+    let resonances = kept(resonances, smallest_divisor, keep)?;
+    let in_floats = match exact {
+        Some(exact) => Some(!exact),
+        None => (float || given_float || driven_float).then_some(true),
+    };
+    let form = progress::reported(py, progress, |tell: &mut Progress<'_>| {
+        about_the_equilibrium(&polynomial, order, &space, &given.phases, &resonances, in_floats, tell)
+    })?;
+    BirkhoffNormalForm::new(form, symbols).into_py_any(py)
+}
+
+/// The form in floats or in rational numbers; by default in floats where rational numbers have no frequencies.
+fn about_the_equilibrium(
+    hamiltonian: &Polynomial<BigRational>,
+    order: usize,
+    space: &PhaseSpace,
+    driven: &[(BigRational, f64)],
+    resonances: &Resonances,
+    in_floats: Option<bool>,
+    tell: &mut Progress<'_>,
+) -> Result<Form, Algebra> {
+    if in_floats != Some(true) {
+        match normalize_driven(hamiltonian, order, space, driven, resonances, tell) {
+            Err(Algebra::FrequencyIrrational { .. } | Algebra::SpectrumIrrational { .. }) if in_floats.is_none() => {}
+            result => return result.map(Form::Exact),
+        }
+    }
+    let driven: Vec<_> = driven.iter().map(|(frequency, phase)| (frequency.to_float(), *phase)).collect();
+    normalize_driven(&rounded(hamiltonian), order, space, &driven, resonances, tell).map(Form::Float)
+}
+
+/// The resonances to keep.
+fn kept(resonances: Option<&Bound<'_, PyAny>>, smallest_divisor: f64, keep: Option<&str>) -> PyResult<Resonances> {
     let vectors = resonances.map_or(Ok(Vec::new()), vectors)?;
     let resonances = Resonances::new(&vectors.iter().map(Vec::as_slice).collect::<Vec<_>>());
     let resonances =
         resonances.and_then(|some| some.with_smallest_divisor(smallest_divisor)).map_err(error::algebra)?;
-    let resonances = match keep {
-        None => resonances,
-        Some("hyperbolic") => resonances.with_centre(),
+    match keep {
+        None => Ok(resonances),
+        Some("hyperbolic") => Ok(resonances.with_centre()),
         Some(other) => {
             let message = format!("keep = {other:?}: it must be \"hyperbolic\" or None");
-            return Err(error::input("keep", other, "hyperbolic", message));
+            Err(error::input("keep", other, "hyperbolic", message))
         }
-    };
-    let compute = |tell: &mut Progress<'_>| {
-        let in_floats = |tell: &mut Progress<'_>| {
-            let driven: Vec<_> = driven.iter().map(|(frequency, phase)| (frequency.to_float(), *phase)).collect();
-            normalize_driven(&rounded(&polynomial), order, &space, &driven, &resonances, tell).map(Form::Float)
-        };
-        if exact == Some(false) || (exact.is_none() && float) {
-            return in_floats(tell);
-        }
-        match normalize_driven(&polynomial, order, &space, &driven, &resonances, tell) {
-            Err(Algebra::FrequencyIrrational { .. } | Algebra::SpectrumIrrational { .. }) if exact.is_none() => {
-                in_floats(tell)
-            }
-            result => result.map(Form::Exact),
-        }
-    };
-    let form = progress::reported(py, progress, compute)?;
-    BirkhoffNormalForm::new(form, symbols).into_py_any(py)
-}
-
-fn wrong_driven(driven: &Bound<'_, PyAny>) -> PyErr {
-    let kind = driven.get_type().name().map_or_else(|_| "?".to_owned(), |name| name.to_string());
-    PyTypeError::new_err(format!("driven must be a dict of rates by name or a Driven, not {kind}"))
+    }
 }
 
 /// The SymPy symbols among the arguments by their names, with their assumptions.
@@ -256,32 +251,6 @@ fn values(parameters: Option<&Bound<'_, PyAny>>) -> PyResult<(Vec<(String, BigRa
         any_float |= float;
     }
     Ok((values, any_float))
-}
-
-/// Name, frequency and phase at time 0 of each driven phase.
-type Phases = Vec<(String, BigRational, f64)>;
-
-/// The driven phases, and whether a frequency is a float.
-fn phases(driven: Option<&Bound<'_, PyDict>>) -> PyResult<(Phases, bool)> {
-    let (mut phases, mut any_float) = (Vec::new(), false);
-    for (name, value) in driven.into_iter().flatten() {
-        let name = name.str()?.to_string();
-        let argument = format!("driven[{name:?}]");
-        let pair = value.cast::<PyTuple>().ok();
-        if let Some(pair) = pair.filter(|pair| pair.len() != 2) {
-            let message =
-                format!("{argument} has {} entries: it must be a frequency or (frequency, phase)", pair.len());
-            return Err(error::input("driven", pair.len(), 2_usize, message));
-        }
-        let (frequency, start) = match pair {
-            Some(pair) => (pair.get_item(0)?, crate::array::number(&argument, &pair.get_item(1)?)?),
-            None => (value.clone(), 0.0),
-        };
-        let (frequency, float) = number(&argument, &frequency)?;
-        phases.push((name, frequency, start));
-        any_float |= float;
-    }
-    Ok((phases, any_float))
 }
 
 /// The resonances as vectors of integers.

@@ -11,6 +11,7 @@
 //! Finally it computes each order and compares every coefficient; the first difference is an error. The computation takes about as long as parsing the text: at
 //! order 50 both together take 0.1 s.
 
+use crate::document::document;
 use crate::energy::{EnergyNormalization, tell};
 use crate::error::Error;
 use crate::error::TermProblem;
@@ -32,12 +33,6 @@ const LONGEST_RATIONAL: usize = 1 << 16;
 
 /// j, k, l, real part, imaginary part.
 type GeneratorEntry = (u32, u32, u32, String, String);
-
-#[derive(Deserialize)]
-struct Header {
-    format: String,
-    version: u64,
-}
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -102,12 +97,7 @@ impl NormalForm {
     /// # Errors
     /// - The errors of [`from_json`](Self::from_json); a callback that returns `Break`: [`Error::Interrupted`].
     pub fn from_json_with(text: &str, progress: &mut Progress<'_>) -> Result<Self, Error> {
-        let header: Header = serde_json::from_str(text).map_err(Error::json)?;
-        if header.format != FORMAT || header.version != VERSION {
-            let (format, version) = (header.format, header.version);
-            return Err(Error::FormatUnknown { format, version, known_format: FORMAT, known_version: VERSION });
-        }
-        let document: Document = serde_json::from_str(text).map_err(Error::json)?;
+        let document: Document = document(text, FORMAT, VERSION)?;
         check_order(document.order)?;
         count("triaxiality", document.triaxiality.len(), document.order + 1)?;
         count("generators", document.generators.len(), document.order)?;

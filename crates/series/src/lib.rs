@@ -16,6 +16,7 @@ mod bracket;
 mod calculus;
 mod coefficient;
 mod display;
+mod document;
 mod driven;
 mod emit;
 mod energy;

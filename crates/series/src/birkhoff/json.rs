@@ -27,6 +27,7 @@ use super::resonances::Spectrum;
 use super::verify::verified;
 use super::{BirkhoffNormalForm, PhaseSpace, Resonances, check_driven, prepared};
 use crate::coefficient::Coefficient;
+use crate::document::document;
 use crate::error::Error;
 use crate::error::TermProblem;
 use crate::monomial::Monomial;
@@ -37,12 +38,6 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 const VERSION: u64 = 1;
-
-#[derive(Deserialize)]
-struct Header {
-    format: String,
-    version: u64,
-}
 
 type Term = (Vec<i64>, Value, Value);
 
@@ -154,17 +149,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// # Errors
     /// - The errors of [`from_json`](Self::from_json), except [`Error::CoefficientWrong`].
     pub fn from_json_unverified(text: &str) -> Result<Self, Error> {
-        let header: Header = serde_json::from_str(text).map_err(Error::json)?;
-        if header.format != format::<R>() || header.version != VERSION {
-            let (format, version) = (header.format, header.version);
-            return Err(Error::FormatUnknown {
-                format,
-                version,
-                known_format: self::format::<R>(),
-                known_version: VERSION,
-            });
-        }
-        let document: Document = serde_json::from_str(text).map_err(Error::json)?;
+        let document: Document = document(text, format::<R>(), VERSION)?;
         if document.order > R::MAX_ORDER {
             return Err(Error::OrderTooLarge { order: document.order, bound: R::MAX_ORDER });
         }

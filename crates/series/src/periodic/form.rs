@@ -16,8 +16,9 @@ use num_complex::Complex;
 
 use super::divisors::{Divisor, divisors, removal};
 use super::grid::Grid;
+use super::hamiltonian::DrivenHamiltonian;
 use super::images::Images;
-use super::motion::{DrivenHamiltonian, PeriodicMotion};
+use super::motion::PeriodicMotion;
 use super::row::Periodic;
 use super::start::eigenvalues;
 use crate::birkhoff::Mode;

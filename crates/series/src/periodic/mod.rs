@@ -2,8 +2,8 @@
 //!
 //! `row` is a coefficient that is a periodic function, held at the times of a `grid`. `motion` finds the periodic motion, `frame` Floquet's frame about it, from a `start` by the
 //! matrix of `monodromy`. `form` expands the Hamiltonian there and normalizes it with the `divisors`; `images` are the old variables in the new ones. `state` transforms states,
-//! `fourier` gives the motion at fixed actions, `transport` expresses functions. `named` has the names of variables and phases, text and JSON, `code` the source text. `polynomial` is a Hamiltonian that is a polynomial; other functions implement
-//! [`DrivenHamiltonian`].
+//! `fourier` gives the motion at fixed actions, `transport` expresses functions. `named` has the names of variables and phases, text and JSON, `code` the source text.
+//! `hamiltonian` has what a form needs of a Hamiltonian, [`DrivenHamiltonian`], and one that is a polynomial.
 
 mod code;
 mod divisors;
@@ -11,11 +11,11 @@ mod form;
 mod fourier;
 mod frame;
 mod grid;
+mod hamiltonian;
 mod images;
 mod monodromy;
 mod motion;
 mod named;
-mod polynomial;
 mod raw;
 mod row;
 mod start;
@@ -26,9 +26,9 @@ pub use divisors::Divisor;
 pub use form::{DrivenForm, DrivenOptions};
 pub use fourier::Harmonic;
 pub use grid::Grid;
-pub use motion::{DrivenHamiltonian, PeriodicMotion};
+pub use hamiltonian::{DrivenHamiltonian, SampledHamiltonian, terms_at};
+pub use motion::PeriodicMotion;
 pub use named::{DrivenNormalForm, MAX_DRIVEN_ORDER};
-pub use polynomial::{SampledHamiltonian, terms_at};
 pub use raw::RawPeriodic;
 pub use row::Periodic;
 pub use state::FormAtPhases;

@@ -8,6 +8,7 @@ use num_traits::Zero;
 
 use super::frame::{REACHED, SLOWEST, SMALL, frame, solved};
 use super::grid::Grid;
+use super::hamiltonian::DrivenHamiltonian;
 use super::row::{Periodic, product};
 use super::start::eigenvalues;
 use crate::birkhoff::matrix::{Matrix, symplectic_inverse, turned, unit};
@@ -15,23 +16,6 @@ use crate::birkhoff::mode::Mode;
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
-
-/// A Hamiltonian whose coefficients are periodic functions of driven phases.
-pub trait DrivenHamiltonian: Sync {
-    /// Number of pairs (q, p).
-    fn pairs(&self) -> usize;
-
-    /// H as a polynomial in z, without terms of a degree above `degree`, at the variables q₁, p₁, q₂, … that are `variables`: periodic functions plus linear forms in z.
-    ///
-    /// # Errors
-    /// - Of the algebra, and of a function that is not finite at these variables.
-    fn expanded(
-        &self,
-        grid: &Grid,
-        variables: &[Polynomial<Periodic>],
-        degree: u32,
-    ) -> Result<Polynomial<Periodic>, Error>;
-}
 
 /// Most Newton steps.
 const STEPS: usize = 40;

@@ -14,8 +14,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::form::{DrivenForm, DrivenOptions};
-use super::motion::DrivenHamiltonian;
-use super::polynomial::{SampledHamiltonian, terms_at};
+use super::hamiltonian::{DrivenHamiltonian, SampledHamiltonian, terms_at};
 use super::row::Periodic;
 use crate::birkhoff::actions::action_texts;
 use crate::birkhoff::json::reals;
@@ -24,6 +23,7 @@ use crate::birkhoff::text::{Line, latex, significant, symbol};
 use crate::birkhoff::variables::to_real;
 use crate::birkhoff::verify::same;
 use crate::birkhoff::{PhaseSpace, check_driven};
+use crate::document::document;
 use crate::error::Error;
 use crate::harmonics;
 use crate::latex::Part;
@@ -268,16 +268,7 @@ impl DrivenNormalForm {
     /// - no JSON, another format or version, terms that do not fit: as of [`BirkhoffNormalForm`](crate::BirkhoffNormalForm::from_json);
     /// - K differs from that of the Hamiltonian by more than 1e-8 of its largest coefficient: [`Error::CoefficientWrong`]; the errors of [`new`](Self::new).
     pub fn from_json(text: &str, progress: &mut Progress<'_>) -> Result<Self, Error> {
-        #[derive(Deserialize)]
-        struct Header {
-            format: String,
-            version: u64,
-        }
-        let Header { format, version } = serde_json::from_str(text).map_err(Error::json)?;
-        if format != FORMAT || version != VERSION {
-            return Err(Error::FormatUnknown { format, version, known_format: FORMAT, known_version: VERSION });
-        }
-        let document: Document = serde_json::from_str(text).map_err(Error::json)?;
+        let document: Document = document(text, FORMAT, VERSION)?;
         let pairs: Vec<(&str, &str)> = document.variables.iter().map(|(q, p)| (q.as_str(), p.as_str())).collect();
         let names: Vec<&str> = document.driven.iter().map(|(name, ..)| name.as_str()).collect();
         let space = PhaseSpace::new(&pairs)?.with_driven(&names)?;

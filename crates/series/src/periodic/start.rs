@@ -84,24 +84,8 @@ pub(super) fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Fra
         return Err(unsupported(QUARTET));
     }
     let (mut columns, mut modes) = columns(&found)?;
-    // The tangents of half the angles are the frequencies of the form.
-    for (number, mode) in modes.iter_mut().enumerate() {
-        match mode {
-            Mode::Elliptic { frequency, .. } => *frequency = 2.0 * frequency.atan() / period,
-            Mode::Hyperbolic { rate } if *rate < 1.0 => {
-                *rate = 2.0 * rate.atanh() / period.abs();
-                // With a phase that falls the directions change places: (q, p) becomes (p, −q).
-                if period < 0.0 {
-                    columns.swap(2 * number, 2 * number + 1);
-                    columns[2 * number + 1].iter_mut().for_each(|c| *c = -*c);
-                }
-            }
-            _ => {
-                return Err(unsupported(
-                    "are negative: the motion is unstable, and no real frame of this period exists",
-                ));
-            }
-        }
+    if !from_tangents(&mut columns, &mut modes, period) {
+        return Err(unsupported("are negative: the motion is unstable, and no real frame of this period exists"));
     }
     // Φ(M) c e^{−λ t} is periodic.
     let eigenvalues: Vec<_> = modes.iter().flat_map(eigenvalues).collect();
@@ -120,6 +104,25 @@ pub(super) fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Fra
     let columns = columns.iter().zip(&eigenvalues).map(|(column, &lambda)| carried(column, lambda)).collect();
     let (columns, modes) = continued(grid, columns, modes, undriven(second).ok().as_ref());
     Ok((transposed(&columns), modes))
+}
+
+/// Exponents for the frequencies of the form, which are the tangents of half the angles over a period; false for a negative multiplier.
+fn from_tangents(columns: &mut [Vec<Complex<f64>>], modes: &mut [Mode<f64>], period: f64) -> bool {
+    for (number, mode) in modes.iter_mut().enumerate() {
+        match mode {
+            Mode::Elliptic { frequency, .. } => *frequency = 2.0 * frequency.atan() / period,
+            Mode::Hyperbolic { rate } if *rate < 1.0 => {
+                *rate = 2.0 * rate.atanh() / period.abs();
+                // With a phase that falls the directions change places: (q, p) becomes (p, −q).
+                if period < 0.0 {
+                    columns.swap(2 * number, 2 * number + 1);
+                    columns[2 * number + 1].iter_mut().for_each(|c| *c = -*c);
+                }
+            }
+            _ => return false,
+        }
+    }
+    true
 }
 
 /// The modes of ½ zᵀ A z.

@@ -74,8 +74,14 @@ impl FormAtPhases<'_> {
             .collect();
         let mut values = vec![Complex::zero(); normal.len()];
         for term in terms.iter().filter(|term| term.order <= order) {
-            let powers = powers.iter().enumerate().map(|(slot, powers)| powers[term.monomial.exponent(slot) as usize]);
-            values[term.slot] += powers.fold(term.value, |product, power| product * power);
+            let mut product = term.value;
+            for (slot, powers) in powers.iter().enumerate() {
+                let exponent = term.monomial.exponent(slot) as usize;
+                if exponent > 0 {
+                    product *= powers[exponent];
+                }
+            }
+            values[term.slot] += product;
         }
         for mode in 0..modes.len() {
             if modes[mode].is_elliptic() {
@@ -119,8 +125,10 @@ impl FormAtPhases<'_> {
         let point = complex_point(modes, &wanted);
         let largest = MARGIN * point.iter().map(|c| c.norm()).fold(0.0, f64::max);
         let terms = self.terms(&vec![largest; point.len()]);
+        // Each order begins where the one before it ended.
+        let mut begin = wanted.clone();
         let settled = |&order: &usize| {
-            let (mut normal, mut best, mut least) = (wanted.clone(), wanted.clone(), f64::INFINITY);
+            let (mut normal, mut best, mut least) = (begin.clone(), wanted.clone(), f64::INFINITY);
             for _ in 0..STEPS {
                 let image = self.image(&normal, &terms, order)?;
                 let miss = image.iter().zip(state).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
@@ -135,6 +143,7 @@ impl FormAtPhases<'_> {
                 let seen = linear(&image);
                 normal.iter_mut().zip(wanted.iter().zip(seen)).for_each(|(x, (wanted, seen))| *x += wanted - seen);
             }
+            begin.clone_from(&best);
             Ok((best, least))
         };
         orders.iter().map(settled).collect()

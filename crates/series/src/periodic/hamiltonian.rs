@@ -1,14 +1,30 @@
-//! A driven Hamiltonian given as a polynomial with coefficients that are sampled or written as cosines and sines.
+//! Driven Hamiltonians: what a form needs of one, and one given as a polynomial with coefficients that are sampled or written as cosines and sines.
 
 use num_complex::Complex;
 
 use super::grid::Grid;
-use super::motion::DrivenHamiltonian;
 use super::row::Periodic;
 use crate::birkhoff::PhaseSpace;
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::{Polynomial, Truncation};
+
+/// A Hamiltonian whose coefficients are periodic functions of driven phases.
+pub trait DrivenHamiltonian: Sync {
+    /// Number of pairs (q, p).
+    fn pairs(&self) -> usize;
+
+    /// H as a polynomial in z, without terms of a degree above `degree`, at the variables q₁, p₁, q₂, … that are `variables`: periodic functions plus linear forms in z.
+    ///
+    /// # Errors
+    /// - Of the algebra, and of a function that is not finite at these variables.
+    fn expanded(
+        &self,
+        grid: &Grid,
+        variables: &[Polynomial<Periodic>],
+        degree: u32,
+    ) -> Result<Polynomial<Periodic>, Error>;
+}
 
 /// A polynomial Hamiltonian whose coefficients are functions of the driven phases.
 pub struct SampledHamiltonian<F> {
