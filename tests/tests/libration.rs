@@ -167,7 +167,7 @@ fn a_residual_near_a_small_divisor_grows_with_the_span() {
 fn a_span_over_which_rounding_turns_the_proper_angles_is_the_reason() {
     let scene = locked([0.99948, 0.999772, 1.0], orbit(0.0549, 0.0, [0.0, 0.0]), 1.0, 0.0, [0.01, 0.006, 0.005]);
     let reason = reason(scene.clone().span(0.0, 1e18).tolerance(1e-9));
-    assert_eq!(reason, "its frequencies are not accurate enough over the span");
+    assert_eq!(reason, "its series is not accurate enough over the span");
     // The least estimate is that of rounding, which no order improves.
     let plan = scene.span(0.0, 1e12).tolerance(1e-9).solve().expect("a libration").plan().clone();
     assert!(plan.error_bound() > 1e-9 && plan.error_bound() < 0.1 && plan.order() <= 8, "{plan}");

@@ -189,7 +189,7 @@ fn joined<C: Coefficient>(parts: &[Vec<Polynomial<C>>], n: usize) -> Result<Vec<
     Ok(series)
 }
 
-fn stop(flow: ControlFlow<()>, done: usize, of: usize) -> Result<(), Error> {
+pub(crate) fn stop(flow: ControlFlow<()>, done: usize, of: usize) -> Result<(), Error> {
     if flow.is_break() { Err(Error::Interrupted { done, of }) } else { Ok(()) }
 }
 

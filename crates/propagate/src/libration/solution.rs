@@ -160,7 +160,7 @@ pub(super) fn limit(lock: &Lock, linear: &FourierMotion, course: &FourierMotion)
     let slowest = linear.frequencies.iter().fold(1.0_f64, |least, rate| least.min(rate.abs()));
     let (multiples, divisor) = course.smallest_divisor(linear);
     if linear.angle() < SMALL && divisor >= NEAR * slowest {
-        return "its frequencies are not accurate enough over the span".to_owned();
+        return "its series is not accurate enough over the span".to_owned();
     }
     if divisor < NEAR * slowest && linear.angle() < LARGE {
         return format!(

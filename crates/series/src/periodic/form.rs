@@ -29,7 +29,7 @@ use crate::bracket::Poisson;
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::{Polynomial, Truncation};
-use crate::triangle::{LieTransform, Progress, normalize_backwards};
+use crate::triangle::{LieTransform, Progress, normalize_backwards, stop};
 
 /// Harmonics to begin with, and the most of one phase. All are multiples of four: one time more than a multiple of eight suits vector instructions.
 const FEWEST: usize = 4;
@@ -76,7 +76,7 @@ impl DrivenForm {
         options: DrivenOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
-        let motion = settled(system, rates, options.tolerance)?;
+        let motion = settled(system, rates, options, progress)?;
         Self::about(system, Arc::new(motion), options, progress)
     }
 
@@ -231,10 +231,16 @@ impl DrivenForm {
 }
 
 /// The periodic motion on a grid that is fine enough. A grid that is too coarse can have no solution; after `FAILURES` of them there is none.
-fn settled(system: &dyn DrivenHamiltonian, rates: &[f64], tolerance: f64) -> Result<PeriodicMotion, Error> {
+fn settled(
+    system: &dyn DrivenHamiltonian,
+    rates: &[f64],
+    DrivenOptions { order, tolerance, .. }: DrivenOptions,
+    progress: &mut Progress<'_>,
+) -> Result<PeriodicMotion, Error> {
     let mut halves = vec![FEWEST; rates.len()];
     let (mut known, mut failures) = (None, 0);
     loop {
+        stop(progress(0, order), 0, order)?;
         let phases: Vec<_> = rates.iter().copied().zip(halves.iter().copied()).collect();
         let found = PeriodicMotion::new(system, Grid::new(&phases), known.as_ref());
         let tails = match &found {
