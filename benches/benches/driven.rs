@@ -37,7 +37,7 @@ fn planar(eccentricity: f64, degree: u32) -> impl DrivenHamiltonian {
 }
 
 fn form(system: &dyn DrivenHamiltonian, order: usize, tolerance: f64) -> DrivenForm {
-    let options = DrivenOptions { order, tolerance, smallest_divisor: 1e-9 };
+    let options = DrivenOptions { order, tolerance, harmonics: 252, smallest_divisor: 1e-9 };
     DrivenForm::new(system, &[1.0], options, &mut quiet).expect("no resonance")
 }
 

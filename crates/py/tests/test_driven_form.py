@@ -136,6 +136,28 @@ def test_hamiltonian_that_is_not_driven_has_the_form_that_it_has_without_a_phase
     assert abs(form.periodic(1.0)).max() == 0.0
 
 
+def test_half_integer_resonance_is_served_with_its_divisor_or_refused_with_it():
+    def quartic(drive, **options):
+        return normalize(f"(p^2 + x^2)/2 + x^4/4 - {drive}*x^2*cos(M)", 2, PAIR, driven={"M": 2.001}, **options)
+
+    form = quartic(1e-5)
+    multiples, divisor = form.divisors[0]
+    assert multiples in ((2, -1), (4, -2)) and abs(divisor) == pytest.approx(1e-3 * multiples[0] / 2, rel=0.01)
+    with pytest.raises(andoyer.TheoryError, match="small divisor"):
+        quartic(1e-5, smallest_divisor=1e-2)
+    with pytest.raises(andoyer.TheoryError, match="negative"):
+        quartic(0.01)
+
+
+def test_harmonic_64_of_a_slow_phase_is_that_of_the_formula():
+    form = normalize("(p^2 + x^2)/2 + x^4/100 - x*cos(64*M)/1000", 2, PAIR, driven={"M": 0.02})
+    linear = normalize("(p^2 + x^2)/2 - x*cos(64*M)/1000", 0, PAIR, driven={"M": 0.02})
+    for phase in (0.0, 0.03):
+        exact = 1e-3 / (1 - 1.28**2) * math.cos(64 * phase)
+        assert linear.periodic(phase)[0] == pytest.approx(exact, abs=1e-15)
+        assert form.periodic(phase)[0] == pytest.approx(exact, abs=1e-9)
+
+
 ONE = ("(p^2 + x^2)/2 - x^3/5 + x^4/4 - 0.2*x*cos(M) + 0.05*x^2*p*sin(2*M)", PAIR)
 SADDLE = ("x*X + (y^2 + Y^2)/2 + x*y^2/4 - y^3/3 - x*cos(M)/20 + X*y*sin(-2*M)/20", [("x", "X"), ("y", "Y")])
 CASES = {"one": ONE, "saddle": SADDLE}

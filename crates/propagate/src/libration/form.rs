@@ -14,6 +14,8 @@ use crate::numerics::kept::KeptForms;
 
 /// Divisors below this part of the largest frequency end a normal form: the estimate refuses larger ones that are too small.
 const SMALLEST_DIVISOR: f64 = 1e-9;
+/// Most harmonics of a phase.
+const HARMONICS: usize = 252;
 /// The last harmonics of the periodic motion and of its frame are at most this fraction of the tolerance, and not below the second number, which rounding reaches.
 const TAIL: [f64; 2] = [1e-4, 1e-13];
 
@@ -41,7 +43,8 @@ pub(super) fn form(
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     };
-    let options = DrivenOptions { order, tolerance: tail.exp2(), smallest_divisor: SMALLEST_DIVISOR };
+    let options =
+        DrivenOptions { order, tolerance: tail.exp2(), harmonics: HARMONICS, smallest_divisor: SMALLEST_DIVISOR };
     KeptForms::shared().of(key, || {
         let form = match known {
             Some(known) => known.to_order(shape, order, &mut going)?,

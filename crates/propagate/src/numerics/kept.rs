@@ -89,7 +89,7 @@ mod tests {
     fn pendulum(order: usize) -> Result<DrivenForm, Error> {
         let term = |q, p, c| Ok((Monomial::new(&[q, p])?, c));
         let terms = |_: &[f64]| [term(0, 2, 0.5), term(2, 0, 0.5), term(4, 0, -1.0 / 24.0)].into_iter().collect();
-        let options = DrivenOptions { order, tolerance: 1e-12, smallest_divisor: 1e-9 };
+        let options = DrivenOptions { order, tolerance: 1e-12, harmonics: 252, smallest_divisor: 1e-9 };
         DrivenForm::new(&SampledHamiltonian::new(1, terms), &[], options, &mut quiet)
     }
 

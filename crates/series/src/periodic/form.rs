@@ -31,9 +31,8 @@ use crate::monomial::Monomial;
 use crate::polynomial::{Polynomial, Truncation};
 use crate::triangle::{LieTransform, Progress, normalize_backwards, stop};
 
-/// Harmonics to begin with, and the most of one phase. All are multiples of four: one time more than a multiple of eight suits vector instructions.
+/// Harmonics to begin with. All numbers of them are multiples of four: one time more than a multiple of eight suits vector instructions.
 const FEWEST: usize = 4;
-const MOST: usize = 252;
 /// Grids without a solution after which there is none.
 const FAILURES: usize = 4;
 
@@ -44,6 +43,8 @@ pub struct DrivenOptions {
     pub order: usize,
     /// Harmonics at the border of the grid are at most this, relative to variables of size 1.
     pub tolerance: f64,
+    /// Most harmonics of one phase, a multiple of four; a coefficient has twice as many times and one more for each phase.
+    pub harmonics: usize,
     /// A divisor below this, relative to the largest frequency, is refused.
     pub smallest_divisor: f64,
 }
@@ -69,7 +70,7 @@ impl DrivenForm {
     ///
     /// # Errors
     /// - no periodic motion: [`Error::NoPeriodicMotion`]; no frame: [`Error::MultiplierUnsupported`]; a divisor below the smallest: [`Error::SmallDivisor`];
-    /// - more than 505 times of a phase: [`Error::GridTooFine`]; a callback that returns `Break`: [`Error::Interrupted`].
+    /// - more harmonics of a phase than [`DrivenOptions::harmonics`]: [`Error::GridTooFine`]; a callback that returns `Break`: [`Error::Interrupted`].
     pub fn new(
         system: &dyn DrivenHamiltonian,
         rates: &[f64],
@@ -234,7 +235,7 @@ impl DrivenForm {
 fn settled(
     system: &dyn DrivenHamiltonian,
     rates: &[f64],
-    DrivenOptions { order, tolerance, .. }: DrivenOptions,
+    DrivenOptions { order, tolerance, harmonics, .. }: DrivenOptions,
     progress: &mut Progress<'_>,
 ) -> Result<PeriodicMotion, Error> {
     let mut halves = vec![FEWEST; rates.len()];
@@ -252,13 +253,13 @@ fn settled(
         if !coarse.contains(&true) || failures == FAILURES || rates.is_empty() {
             return found;
         }
-        if halves.iter().zip(&coarse).any(|(&half, &coarse)| coarse && half == MOST) {
+        if halves.iter().zip(&coarse).any(|(&half, &coarse)| coarse && half == harmonics) {
             let rest = tails.iter().copied().fold(0.0, f64::max);
-            return found.and(Err(Error::GridTooFine { harmonics: MOST, rest, tolerance }));
+            return found.and(Err(Error::GridTooFine { harmonics, rest, tolerance }));
         }
         known = found.ok();
         for (half, _) in halves.iter_mut().zip(coarse).filter(|(_, coarse)| *coarse) {
-            *half = (*half + *half / 4).next_multiple_of(4).min(MOST);
+            *half = (*half + *half / 4).next_multiple_of(4).min(harmonics);
         }
     }
 }

@@ -35,6 +35,8 @@ use crate::triangle::{Progress, quiet};
 pub const MAX_DRIVEN_ORDER: usize = 60;
 /// The size of the last harmonics.
 const TAIL: f64 = 1e-12;
+/// Most harmonics of a phase: of one, and of several.
+const HARMONICS: [usize; 2] = [1020, 252];
 /// Harmonics below this part of the largest one of their coefficient are rounding errors.
 const NEGLIGIBLE: f64 = 1e-14;
 const FORMAT: &str = "andoyer-driven";
@@ -314,5 +316,6 @@ fn computed(
     }
     check_driven(phases, space)?;
     let rates: Vec<f64> = phases.iter().map(|(rate, _)| *rate).collect();
-    DrivenForm::new(system, &rates, DrivenOptions { order, tolerance: TAIL, smallest_divisor }, progress)
+    let harmonics = HARMONICS[usize::from(rates.len() > 1)];
+    DrivenForm::new(system, &rates, DrivenOptions { order, tolerance: TAIL, harmonics, smallest_divisor }, progress)
 }

@@ -9,7 +9,7 @@ use andoyer_series::{Error, Monomial, Polynomial};
 use num_complex::Complex;
 
 fn options(order: usize) -> DrivenOptions {
-    DrivenOptions { order, tolerance: 1e-12, smallest_divisor: 1e-9 }
+    DrivenOptions { order, tolerance: 1e-12, harmonics: 252, smallest_divisor: 1e-9 }
 }
 
 /// A form from text with the phases M, N, as many as there are rates.
