@@ -26,7 +26,7 @@ pub(crate) mod phases;
 mod quadratic;
 mod resonances;
 mod scaled;
-mod spectrum;
+pub(crate) mod spectrum;
 pub(crate) mod text;
 mod transformation;
 pub(crate) mod variables;

@@ -16,6 +16,8 @@ use crate::triangle::{LieTransform, Removal};
 
 /// Harmonics below this part of the largest one of a generator have no divisor that counts.
 const NEGLIGIBLE: f64 = 1e-10;
+/// A harmonic below this part of the largest coefficient is rounding: where its divisor is small it is left out.
+const ROUNDING: f64 = 1e-14;
 /// Divisors that are kept for the user.
 const DIVISORS: usize = 20;
 
@@ -42,6 +44,7 @@ pub(super) fn removal(
 ) -> Result<Removal<Periodic>, Error> {
     let (mut image, mut solution) = (Vec::new(), Vec::new());
     let grid = &motion.grid;
+    let rounding = ROUNDING * known.terms().map(|(_, c)| c.size()).fold(0.0, f64::max);
     for (monomial, c) in known.terms() {
         if monomial == Monomial::ONE {
             image.push((monomial, c.clone()));
@@ -61,6 +64,10 @@ pub(super) fn removal(
         };
         for (at, c) in harmonics.iter_mut().enumerate().filter(|(_, c)| !c.is_zero()) {
             let divisor = own + grid.rate(at);
+            if divisor.norm() < bound && c.norm() <= rounding {
+                *c = Complex::zero();
+                continue;
+            }
             if divisor.norm() < bound {
                 let j = grid.multiples(at);
                 return Err(Error::SmallDivisor {

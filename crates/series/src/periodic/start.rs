@@ -17,6 +17,7 @@ use crate::birkhoff::PhaseSpace;
 use crate::birkhoff::diagonal::Diagonal;
 use crate::birkhoff::matrix::{Matrix, pairing, transposed, turned_rows};
 use crate::birkhoff::mode::Mode;
+use crate::birkhoff::spectrum::eigenvalues as spectrum;
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
@@ -68,8 +69,7 @@ pub(super) fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Fra
     let last = &course[grid.times()];
     let one = DMatrix::<f64>::identity(n, n);
     let unsupported = |problem| {
-        let eigenvalues = last.clone().complex_eigenvalues();
-        let multipliers = eigenvalues.iter().map(|c| [c.re, c.im]).collect();
+        let multipliers = spectrum(last).unwrap_or_default().iter().map(|c| [c.re, c.im]).collect();
         Error::MultiplierUnsupported { multipliers, problem }
     };
     let inverse =
