@@ -16,7 +16,7 @@ use crate::triangle::{LieTransform, Removal};
 
 /// Harmonics below this part of the largest one of a generator have no divisor that counts.
 const NEGLIGIBLE: f64 = 1e-10;
-/// A harmonic below this part of the largest coefficient is rounding: where its divisor is small it is left out.
+/// A harmonic below this part of the largest coefficient, or of the largest frequency, is rounding: where its divisor is small it is left out.
 const ROUNDING: f64 = 1e-14;
 /// Divisors that are kept for the user.
 const DIVISORS: usize = 20;
@@ -44,7 +44,8 @@ pub(super) fn removal(
 ) -> Result<Removal<Periodic>, Error> {
     let (mut image, mut solution) = (Vec::new(), Vec::new());
     let grid = &motion.grid;
-    let rounding = ROUNDING * known.terms().map(|(_, c)| c.size()).fold(0.0, f64::max);
+    let fastest = motion.modes.iter().map(|one| one.frequency().norm()).fold(0.0, f64::max);
+    let rounding = ROUNDING * known.terms().map(|(_, c)| c.size()).fold(fastest, f64::max);
     for (monomial, c) in known.terms() {
         if monomial == Monomial::ONE {
             image.push((monomial, c.clone()));
