@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_matrix_on_which_the_iteration_cycles_has_eigenvalues() {
-        // A quartet. Without a limit of its steps nalgebra's iteration does not end.
+        // A quartet. Without a limit of its steps nalgebra's iteration does not end, nor does it for a NaN.
         let columns = [
             [
                 8.881_590_723_412_366e-16,
@@ -211,5 +211,6 @@ mod tests {
         let near = |value: f64, expected: f64| (value.abs() - expected).abs() < 1e-13;
         let all = found.iter().all(|c| near(c.re, 0.047_447_389_449_806) && near(c.im, 0.958_077_268_560_452));
         assert!(found.len() == 4 && all, "{found:?}");
+        assert!(eigenvalues(&nalgebra::DMatrix::from_element(4, 4, f64::NAN)).is_none());
     }
 }
