@@ -150,12 +150,19 @@ def test_half_integer_resonance_is_served_with_its_divisor_or_refused_with_it():
 
 
 def test_harmonic_64_of_a_slow_phase_is_that_of_the_formula():
+    # At the nine times of the first grid cos 64M is cos M.
     form = normalize("(p^2 + x^2)/2 + x^4/100 - x*cos(64*M)/1000", 2, PAIR, driven={"M": 0.0213})
     linear = normalize("(p^2 + x^2)/2 - x*cos(64*M)/1000", 0, PAIR, driven={"M": 0.0213})
     for phase in (0.0, 0.03):
         exact = 1e-3 / (1 - 1.3632**2) * math.cos(64 * phase)
         assert linear.periodic(phase)[0] == pytest.approx(exact, abs=1e-15)
         assert form.periodic(phase)[0] == pytest.approx(exact, abs=1e-9)
+    sampled = normalize("(p^2 + x^2)/2", 0, PAIR, driven=Driven(0.0213, lambda M: {(1, 0): -math.cos(64 * M) / 1000}))
+    assert sampled.periodic(0.03) == pytest.approx(linear.periodic(0.03), abs=1e-15)
+    with pytest.raises(andoyer.TheoryError, match="with 1020 harmonics"):
+        normalize("(p^2 + x^2)/2", 0, PAIR, driven=Driven(0.0213, lambda M: {(1, 0): 1.0 if math.sin(M) > 0 else -1.0}))
+    with pytest.raises(andoyer.Error):
+        normalize("(p^2 + x^2)/2", 0, PAIR, driven=Driven(0.0213, lambda M: {(1, 0): 1e308 * math.tan(M)}))
 
 
 ONE = ("(p^2 + x^2)/2 - x^3/5 + x^4/4 - 0.2*x*cos(M) + 0.05*x^2*p*sin(2*M)", PAIR)

@@ -33,6 +33,8 @@ use crate::triangle::{LieTransform, Progress, normalize_backwards, stop};
 
 /// Harmonics to begin with. All numbers of them are multiples of four: one time more than a multiple of eight suits vector instructions.
 const FEWEST: usize = 4;
+/// Coefficients may differ between the times of a grid by so many times the tolerance of its last harmonics.
+const BETWEEN: f64 = 100.0;
 /// Grids without a solution after which there is none.
 const FAILURES: usize = 4;
 
@@ -231,7 +233,8 @@ impl DrivenForm {
     }
 }
 
-/// The periodic motion on a grid that is fine enough. A grid that is too coarse can have no solution; after `FAILURES` of them there is none.
+/// The periodic motion on a grid that is fine enough: it holds the coefficients, and the last harmonics are small. A grid that is too coarse can have no solution; after
+/// `FAILURES` of them there is none.
 fn settled(
     system: &dyn DrivenHamiltonian,
     rates: &[f64],
@@ -243,21 +246,29 @@ fn settled(
     loop {
         stop(progress(0, order), 0, order)?;
         let phases: Vec<_> = rates.iter().copied().zip(halves.iter().copied()).collect();
-        let found = PeriodicMotion::new(system, Grid::new(&phases), known.as_ref());
+        let grid = Grid::new(&phases);
+        let between = system.between_times(&grid)?;
+        let resolved = between <= BETWEEN * tolerance;
+        let found = resolved.then(|| PeriodicMotion::new(system, grid, known.as_ref()));
         let tails = match &found {
-            Ok(motion) => motion.tails.clone(),
-            Err(_) => vec![f64::INFINITY; rates.len()],
+            Some(Ok(motion)) => motion.tails.clone(),
+            Some(Err(_)) => vec![f64::INFINITY; rates.len()],
+            // Infinite for a NaN.
+            None => vec![if between.is_nan() { f64::INFINITY } else { between }; rates.len()],
         };
-        failures += usize::from(found.is_err());
+        failures += usize::from(matches!(found, Some(Err(_))));
         let coarse: Vec<bool> = tails.iter().map(|&tail| tail > tolerance).collect();
-        if !coarse.contains(&true) || failures == FAILURES || rates.is_empty() {
-            return found;
+        if let Some(found) = &found
+            && (!coarse.contains(&true) || failures == FAILURES || rates.is_empty())
+        {
+            return found.clone();
         }
         if halves.iter().zip(&coarse).any(|(&half, &coarse)| coarse && half == harmonics) {
             let rest = tails.iter().copied().fold(0.0, f64::max);
-            return found.and(Err(Error::GridTooFine { harmonics, rest, tolerance }));
+            let too_fine = Error::GridTooFine { harmonics, rest, tolerance };
+            return Err(found.and_then(Result::err).unwrap_or(too_fine));
         }
-        known = found.ok();
+        known = found.and_then(Result::ok).or(known);
         for (half, _) in halves.iter_mut().zip(coarse).filter(|(_, coarse)| *coarse) {
             *half = (*half + *half / 4).next_multiple_of(4).min(harmonics);
         }

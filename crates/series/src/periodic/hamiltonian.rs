@@ -1,5 +1,8 @@
 //! Driven Hamiltonians: what a form needs of one, and one given as a polynomial with coefficients that are sampled or written as cosines and sines.
 
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
 use num_complex::Complex;
 
 use super::grid::Grid;
@@ -24,7 +27,21 @@ pub trait DrivenHamiltonian: Sync {
         variables: &[Polynomial<Periodic>],
         degree: u32,
     ) -> Result<Polynomial<Periodic>, Error>;
+
+    /// The largest difference of a coefficient from what a grid has between its times, relative to the largest coefficient that is above 1: at the times of the grid a
+    /// harmonic beyond it passes for a lower one.
+    ///
+    /// # Errors
+    /// - Those of the coefficients.
+    fn between_times(&self, _grid: &Grid) -> Result<f64, Error> {
+        Ok(0.0)
+    }
 }
+
+/// Phases at which coefficients are compared between the times of a grid.
+const BETWEEN: u32 = 8;
+/// (√5 − 1)/2.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// A polynomial Hamiltonian whose coefficients are functions of the driven phases.
 pub struct SampledHamiltonian<F> {
@@ -36,6 +53,17 @@ impl<F: Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync> SampledHamilto
     /// The Hamiltonian of `pairs` pairs whose terms at phases \[rad\] are `samples`.
     pub fn new(pairs: usize, samples: F) -> Self {
         Self { pairs, samples }
+    }
+
+    /// The Hamiltonian at the times of a grid.
+    fn on(&self, grid: &Grid) -> Result<Polynomial<Periodic>, Error> {
+        let mut rows: BTreeMap<Monomial, Vec<Complex<f64>>> = BTreeMap::new();
+        for at in 0..grid.times() {
+            for (monomial, c) in (self.samples)(&grid.angles(at))? {
+                rows.entry(monomial).or_insert_with(|| vec![Complex::default(); grid.times()])[at] += c;
+            }
+        }
+        Ok(Polynomial::from_terms(rows.iter().map(|(&monomial, row)| (monomial, Periodic::of(row).simplified()))))
     }
 }
 
@@ -72,14 +100,23 @@ impl<F: Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync> DrivenHamilton
         variables: &[Polynomial<Periodic>],
         degree: u32,
     ) -> Result<Polynomial<Periodic>, Error> {
-        let mut rows: std::collections::BTreeMap<Monomial, Vec<Complex<f64>>> = std::collections::BTreeMap::new();
-        for at in 0..grid.times() {
-            for (monomial, c) in (self.samples)(&grid.angles(at))? {
-                rows.entry(monomial).or_insert_with(|| vec![Complex::default(); grid.times()])[at] += c;
-            }
-        }
-        let terms = rows.iter().map(|(&monomial, row)| (monomial, Periodic::of(row).simplified()));
         let replacements: Vec<_> = variables.iter().enumerate().collect();
-        Polynomial::from_terms(terms).compose(&replacements, Some(&Truncation::total(degree)))
+        self.on(grid)?.compose(&replacements, Some(&Truncation::total(degree)))
+    }
+
+    fn between_times(&self, grid: &Grid) -> Result<f64, Error> {
+        let known = self.on(grid)?;
+        let largest = known.terms().map(|(_, c)| c.size()).fold(1.0, f64::max);
+        let mut most = 0.0_f64;
+        for number in 1..=BETWEEN {
+            // Multiples of the golden ratio and of its powers are near no times of a grid.
+            let turns = |phase: usize| GOLDEN.powi(phase as i32 + 1) * f64::from(number);
+            let phases: Vec<f64> = (0..grid.phases()).map(|phase| TAU * turns(phase).fract()).collect();
+            let weights = grid.weights(&phases);
+            let mut left = known.map(|c| c.weighted(&weights));
+            left -= &Polynomial::from_terms((self.samples)(&phases)?).map(|&c: &f64| Complex::from(c));
+            most = left.terms().fold(most, |most, (_, c)| most.max(c.norm()));
+        }
+        Ok(most / largest)
     }
 }
