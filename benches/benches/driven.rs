@@ -1,4 +1,4 @@
-//! Normal forms about a periodic motion by order and by the number of times N of a coefficient: the planar libration of a body with (B − A)/C = 0.1 on an orbit of
+//! Normal forms about a periodic motion by order and by the number of times N of a coefficient: the planar libration of a body with (B − A)/C = 0.02 on an orbit of
 //! eccentricity e (docs/theory-locked.md). `whole` is the periodic motion, its frame and the form; `form` the form alone about the same motion; `trajectory` a state at 100 times.
 
 mod short;
@@ -11,7 +11,7 @@ use andoyer_series::progress::quiet;
 use andoyer_series::{Error, Monomial};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 
-const SHAPE: f64 = 0.1;
+const SHAPE: f64 = 0.02;
 
 /// p²/2 − (3/4) s (a/ρ)³ cos 2(ψ + M − f) about ψ = 0, p = 1.
 fn planar(eccentricity: f64, degree: u32) -> impl DrivenHamiltonian {
