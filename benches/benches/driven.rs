@@ -3,9 +3,10 @@
 
 mod short;
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 
+use andoyer_propagate::Orbit;
 use andoyer_series::periodic::{DrivenForm, DrivenHamiltonian, DrivenOptions, SampledHamiltonian};
 use andoyer_series::progress::quiet;
 use andoyer_series::{Error, Monomial};
@@ -15,24 +16,18 @@ const SHAPE: f64 = 0.02;
 
 /// p²/2 − (3/4) s (a/ρ)³ cos 2(ψ + M − f) about ψ = 0, p = 1.
 fn planar(eccentricity: f64, degree: u32) -> impl DrivenHamiltonian {
+    let orbit = Orbit::new(1.0, eccentricity).and_then(|orbit| orbit.semi_major_axis(1.0)).expect("an ellipse");
     SampledHamiltonian::new(1, move |phases: &[f64]| {
-        let e = eccentricity;
-        let turn = TAU * (phases[0] / TAU).round();
-        let mean = phases[0] - turn;
-        let mut x = mean;
-        for _ in 0..60 {
-            x -= (x - e * x.sin() - mean) / (1.0 - e * x.cos());
-        }
-        let anomaly = 2.0 * (((1.0 + e) / (1.0 - e)).sqrt() * (x / 2.0).tan()).atan();
-        let (cube, angle) = ((1.0 - e * x.cos()).powi(-3), 2.0 * (mean - anomaly));
-        let mut terms = vec![(Monomial::new(&[0, 2])?, 0.5)];
+        let [x, y, _] = orbit.position(phases[0]).expect("a time");
+        let (cube, angle) = (x.hypot(y).powi(-3), 2.0 * (phases[0] - y.atan2(x)));
         let mut factor = 1.0;
-        for k in 1..=degree {
+        let slopes = (1..=degree).map(|k| {
             factor *= 2.0 / f64::from(k);
+            // The k-th derivative of the cosine.
             let slope = (angle + f64::from(k) * FRAC_PI_2).cos();
-            terms.push((Monomial::new(&[k, 0])?, -0.75 * SHAPE * cube * factor * slope));
-        }
-        Ok::<_, Error>(terms)
+            Ok((Monomial::new(&[k, 0])?, -0.75 * SHAPE * cube * factor * slope))
+        });
+        std::iter::once(Ok((Monomial::new(&[0, 2])?, 0.5))).chain(slopes).collect::<Result<Vec<_>, Error>>()
     })
 }
 

@@ -174,16 +174,20 @@ fn orbits_are_one_for_all_or_one_for_each_and_what_they_cannot_disturb_is_named(
 }
 
 #[test]
-fn what_was_solved_for_other_options_is_not_used() {
+fn motions_under_a_torque_are_kept_and_not_those_of_other_options() {
     let rates = vec![[0.0, 0.01, 1.0], [0.0, 0.02, 1.0], [0.0, 1.0, 0.001]];
     let sun = Orbit::new(2e-3, 0.1).expect("an orbit");
     let ensemble = Ensemble::new(vec![[1.0, 1.02, 1.05]; 3], vec![[0.0, 0.0, 0.0, 1.0]; 3], rates).expect("members");
     let ensemble = ensemble.orbits(vec![Some(sun), None, Some(sun)]).expect("orbits").span(0.0, 1e3).tolerance(1e-6);
     let plans = |ensemble: &Ensemble| ensemble.plans().expect("plans");
+    let keeps = |ensemble: &Ensemble, count: usize| format!("{ensemble:?}").contains(&format!("kept: {count} motions"));
     let first = plans(&ensemble);
+    // Those under a torque, once for all copies.
+    assert!(keeps(&ensemble, 2) && keeps(&ensemble.clone().threads(1), 2), "{ensemble:?}");
     assert_eq!(plans(&ensemble.clone()), first);
     assert_eq!(ensemble.motion(2).expect("a motion").plan(), &first[2]);
     let shorter = ensemble.clone().span(0.0, 10.0);
+    assert!(keeps(&shorter, 0), "{shorter:?}");
     assert_ne!(plans(&shorter)[0].error_bound(), first[0].error_bound());
     assert_eq!(plans(&ensemble.clone().tolerance(1e-7))[0].tolerance(), 1e-7);
     assert_eq!(plans(&ensemble), first);

@@ -16,6 +16,7 @@ mod cassini;
 mod computing;
 mod domain;
 mod driven;
+mod driven_form;
 mod ensemble;
 mod error;
 mod expression;
@@ -55,7 +56,9 @@ mod _core {
     #[pymodule_export]
     use super::domain::Domain;
     #[pymodule_export]
-    use super::driven::{Driven, DrivenNormalForm};
+    use super::driven::Driven;
+    #[pymodule_export]
+    use super::driven_form::DrivenNormalForm;
     #[pymodule_export]
     use super::ensemble::Ensemble;
     #[pymodule_export]

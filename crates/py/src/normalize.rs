@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 
 use crate::birkhoff::BirkhoffNormalForm;
-use crate::driven::Given;
+use crate::driven::DrivenPhases;
 use crate::error;
 use crate::expression::{Expression, number};
 use crate::form::{Form, rounded};
@@ -119,7 +119,7 @@ pub(crate) fn normalize(
         ("exact", exact.is_some()),
     ];
     let in_orders = in_orders.into_iter().find(|(_, given)| *given).map(|(name, _)| name);
-    let (given, driven_float) = Given::of(driven)?;
+    let (given, driven_float) = DrivenPhases::of(driven)?;
     if given.is_about_the_periodic_motion(in_orders)? {
         let order = self::order("order", order, 0, MAX_DRIVEN_ORDER)?;
         let form = crate::driven::normalized(py, hamiltonian, order, &space, given, smallest_divisor, progress)?;

@@ -934,7 +934,7 @@ class DrivenNormalForm:
     def __deepcopy__(self, _memo: Any) -> DrivenNormalForm: ...
 
 @overload
-def normalize(  # type: ignore[overload-overlap]  # what is not in this one is given in the other
+def normalize(  # type: ignore[overload-overlap]  # a call with `exact` or `parameters` matches the second one only
     hamiltonian: _Expression | None,
     order: int,
     variables: Sequence[tuple[Any, Any]],

@@ -45,7 +45,7 @@ pub struct DrivenOptions {
     pub order: usize,
     /// Harmonics at the border of the grid are at most this, relative to variables of size 1.
     pub tolerance: f64,
-    /// Most harmonics of one phase, a multiple of four; a coefficient has twice as many times and one more for each phase.
+    /// Most harmonics H of one phase, a multiple of four. A coefficient is held at the product over the phases of 2H + 1 times.
     pub harmonics: usize,
     /// A divisor below this, relative to the largest frequency, is refused.
     pub smallest_divisor: f64,

@@ -28,8 +28,8 @@ pub trait DrivenHamiltonian: Sync {
         degree: u32,
     ) -> Result<Polynomial<Periodic>, Error>;
 
-    /// The largest difference of a coefficient from what a grid has between its times, relative to the largest coefficient that is above 1: at the times of the grid a
-    /// harmonic beyond it passes for a lower one.
+    /// The largest difference between a coefficient and its interpolation, at phases between the times of a grid, relative to the largest coefficient or to 1. A harmonic beyond
+    /// the grid passes for a lower one at its times. The default is 0, for coefficients that have all harmonics up to their highest, as those of an ellipse: the last ones tell.
     ///
     /// # Errors
     /// - Those of the coefficients.
@@ -115,7 +115,12 @@ impl<F: Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync> DrivenHamilton
             let weights = grid.weights(&phases);
             let mut left = known.map(|c| c.weighted(&weights));
             left -= &Polynomial::from_terms((self.samples)(&phases)?).map(|&c: &f64| Complex::from(c));
-            most = left.terms().fold(most, |most, (_, c)| most.max(c.norm()));
+            for (_, c) in left.terms() {
+                if !c.is_finite() {
+                    return Ok(f64::INFINITY);
+                }
+                most = most.max(c.norm());
+            }
         }
         Ok(most / largest)
     }

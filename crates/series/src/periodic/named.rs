@@ -100,12 +100,11 @@ impl DrivenNormalForm {
     ) -> Result<Self, Error> {
         let at = |phases: &[f64]| terms_at(hamiltonian, space, phases);
         let system = SampledHamiltonian::new(space.degrees_of_freedom(), at);
-        let form = computed(&system, order, space, phases, smallest_divisor, progress)?;
-        let starts = phases.iter().map(|(_, start)| *start).collect();
-        Ok(Self { space: space.clone(), hamiltonian: hamiltonian.clone(), starts, smallest_divisor, form })
+        let form = Self::of(&system, order, space, phases, smallest_divisor, progress)?;
+        Ok(Self { hamiltonian: hamiltonian.clone(), ..form })
     }
 
-    /// The same of a polynomial Hamiltonian that is known at the times of a grid.
+    /// The normal form of a polynomial Hamiltonian that is known at the times of a grid. Its coefficients are kept as sums of cosines and sines.
     ///
     /// # Errors
     /// - those of [`new`](Self::new) and of the Hamiltonian.
@@ -117,10 +116,16 @@ impl DrivenNormalForm {
         smallest_divisor: f64,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
-        let form = computed(system, order, space, phases, smallest_divisor, progress)?;
+        if order > MAX_DRIVEN_ORDER {
+            return Err(Error::OrderTooLarge { order, bound: MAX_DRIVEN_ORDER });
+        }
+        check_driven(phases, space)?;
+        let (rates, starts): (Vec<f64>, Vec<f64>) = phases.iter().copied().unzip();
+        let harmonics = HARMONICS[usize::from(rates.len() > 1)];
+        let options = DrivenOptions { order, tolerance: TAIL, harmonics, smallest_divisor };
+        let form = DrivenForm::new(system, &rates, options, progress)?;
         let variables: Vec<_> = (0..2 * system.pairs()).map(Polynomial::variable).collect::<Result<_, _>>()?;
         let rows = system.expanded(form.grid(), &variables, MAX_EXPONENT)?;
-        let starts = phases.iter().map(|(_, start)| *start).collect();
         let mut named = Self { space: space.clone(), hamiltonian: Polynomial::zero(), starts, smallest_divisor, form };
         named.hamiltonian = named.in_waves(&rows)?;
         Ok(named)
@@ -301,21 +306,4 @@ impl std::fmt::Display for DrivenNormalForm {
         let actions = significant::<f64>(&actions.map(|&c| Complex::from(c)), &self.space);
         formatter.write_str(&self.space.text(&actions, &action_texts(self.form.modes(), &self.space)))
     }
-}
-
-fn computed(
-    system: &dyn DrivenHamiltonian,
-    order: usize,
-    space: &PhaseSpace,
-    phases: &[(f64, f64)],
-    smallest_divisor: f64,
-    progress: &mut Progress<'_>,
-) -> Result<DrivenForm, Error> {
-    if order > MAX_DRIVEN_ORDER {
-        return Err(Error::OrderTooLarge { order, bound: MAX_DRIVEN_ORDER });
-    }
-    check_driven(phases, space)?;
-    let rates: Vec<f64> = phases.iter().map(|(rate, _)| *rate).collect();
-    let harmonics = HARMONICS[usize::from(rates.len() > 1)];
-    DrivenForm::new(system, &rates, DrivenOptions { order, tolerance: TAIL, harmonics, smallest_divisor }, progress)
 }

@@ -278,3 +278,14 @@ fn what_has_no_frame_is_an_error_that_says_why() {
     let small = form("(p^2 + x^2)/2 + x^3*cos(M)", &pair, &[3.0], 2);
     assert!(matches!(small, Err(Error::SmallDivisor { .. })), "{small:?}");
 }
+
+#[test]
+fn a_harmonic_that_is_rounding_has_no_small_divisor() -> Result<(), Error> {
+    // The coefficients have the harmonics 0 and 3; the frequency is that of the phase, so every harmonic j of a term with k = −j has the divisor 0.
+    let form = form("(p^2 + x^2)/2 + x^4/4 + 0.1*x^4*cos(3*M)", &[("x", "p")], &[1.0], 2)?;
+    // K of the quartic alone: the drive has no mean.
+    let actions = form.in_actions()?;
+    let [linear, square] = [1, 2].map(|power| actions.coefficient(&Monomial::new(&[power]).unwrap_or(Monomial::ONE)));
+    assert!(linear == Some(&1.0) && square.is_some_and(|c| (c - 0.375).abs() < 1e-14), "{actions:?}");
+    Ok(())
+}
