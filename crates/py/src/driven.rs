@@ -10,7 +10,7 @@ use andoyer_series::{Error as Algebra, Monomial, PhaseSpace, Polynomial};
 use num_rational::BigRational;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyDict, PyString, PyTuple};
 
 use crate::array::numbers_of;
 use crate::driven_form::DrivenNormalForm;
@@ -31,13 +31,15 @@ type Terms = Vec<(Monomial, f64)>;
 /// samples : callable, optional
 ///     A function of the phases [rad], one number for each, that returns {exponents: coefficient} at these phases; the exponents are those of `variables`. Its terms are
 ///     added to those of the Hamiltonian. It is called at the times of a grid, and must have the period 2π in each phase.
-/// names : sequence of str, optional
+/// names : str or sequence of str, optional
 ///     The names of the phases in the text of the Hamiltonian, which may contain ``cos(j*M)`` and ``sin(j*M)``; by default ``M``, with several phases ``M1``, ``M2``, …
 ///
 /// Raises
 /// ------
 /// InputError
 ///     A rate that is 0 or not finite; another number of names than of rates.
+/// TypeError
+///     Samples that cannot be called.
 ///
 /// Examples
 /// --------
@@ -57,16 +59,33 @@ pub(crate) struct Driven {
 impl Driven {
     #[new]
     #[pyo3(signature = (rate, samples=None, names=None))]
-    fn new(rate: &Bound<'_, PyAny>, samples: Option<Py<PyAny>>, names: Option<Vec<String>>) -> PyResult<Self> {
+    fn new(rate: &Bound<'_, PyAny>, samples: Option<Py<PyAny>>, names: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let rates = numbers_of("rate", rate)?;
-        if let Some(rate) = rates.iter().find(|rate| !rate.is_normal()) {
-            let message = format!("rate = {rate}: the rate of a driven phase must be a finite number other than 0");
-            return Err(error::input("rate", *rate, "finite, not 0", message));
+        rates.iter().try_for_each(|&rate| valid("rate", rate))?;
+        if rates.is_empty() {
+            return Err(error::input(
+                "rate",
+                0_usize,
+                1_usize,
+                "rate is empty: a rate of each driven phase".to_owned(),
+            ));
         }
+        if let Some(samples) = samples.as_ref().map(|samples| samples.bind(rate.py())).filter(|one| !one.is_callable())
+        {
+            return Err(PyTypeError::new_err(format!(
+                "samples must be a callable, not {}",
+                samples.get_type().name()?
+            )));
+        }
+        let named = |names: &Bound<'_, PyAny>| match names.cast::<PyString>() {
+            Ok(name) => Ok(vec![name.to_string()]),
+            Err(_) => names.extract::<Vec<String>>(),
+        };
+        let names = names.map(named).transpose()?;
         let count = rates.len();
         let known = || if count == 1 { vec!["M".to_owned()] } else { (1..=count).map(|k| format!("M{k}")).collect() };
         let names = names.unwrap_or_else(known);
-        if names.len() != count || count == 0 {
+        if names.len() != count {
             let message = format!("names: {} names for {count} rates", names.len());
             return Err(error::input("names", names.len(), count, message));
         }
@@ -161,6 +180,7 @@ impl DrivenPhases {
                 None => (value.clone(), 0.0),
             };
             let (rate, float) = number(&argument, &rate)?;
+            valid(&argument, rate.to_float())?;
             given.names.push(name);
             given.phases.push((rate, start));
             any_float |= float;
@@ -178,6 +198,15 @@ impl DrivenPhases {
             _ => Ok(in_orders.is_none() && !self.phases.is_empty()),
         }
     }
+}
+
+/// Refuses a rate that is 0 or not finite.
+fn valid(argument: &str, rate: f64) -> PyResult<()> {
+    if rate.is_normal() {
+        return Ok(());
+    }
+    let message = format!("{argument} = {rate}: the rate of a driven phase must be a finite number other than 0");
+    Err(error::input(if argument == "rate" { "rate" } else { "driven" }, rate, "finite, not 0", message))
 }
 
 fn wrong(driven: &Bound<'_, PyAny>) -> PyErr {

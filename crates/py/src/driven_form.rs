@@ -122,6 +122,8 @@ impl DrivenNormalForm {
     }
 
     /// The smallest divisors k·ω + j·n of the transformation: pairs of the integers (k, j) and the value [rad per unit of time], the smallest first.
+    ///
+    /// At most 20. Where a saddle takes part the value is the modulus.
     #[getter]
     fn divisors<'py>(&self, py: Python<'py>) -> PyResult<Vec<(Bound<'py, PyTuple>, f64)>> {
         let pair = |divisor: &Divisor| Ok((PyTuple::new(py, &divisor.multiples)?, divisor.value));
@@ -139,11 +141,24 @@ impl DrivenNormalForm {
     /// -------
     /// ndarray, shape (2n,)
     ///     q₁, p₁, q₂, p₂, …
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     Another number of phases; a NaN.
     fn periodic<'py>(&self, phases: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let phases_given = numbers_of("phases", phases)?;
         let expected = self.form().grid().phases();
         if phases_given.len() != expected {
             return Err(error::shape("phases", &[phases_given.len()], &format!("({expected},)")));
+        }
+        if let Some(phase) = phases_given.iter().find(|phase| !phase.is_finite()) {
+            return Err(error::input(
+                "phases",
+                *phase,
+                "finite",
+                format!("phases contains {phase}: it must be finite"),
+            ));
         }
         Ok(self.form().periodic(&phases_given).into_pyarray(phases.py()))
     }
@@ -158,13 +173,25 @@ impl DrivenNormalForm {
     /// Parameters
     /// ----------
     /// function : str, dict or SymPy expression
+    ///     A polynomial in the variables.
     /// time : float, optional
+    ///     [unit of time of the rates]
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     Coefficients by the exponents of q₁, p₁, q₂, …, of the new variables.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A text that is not a polynomial of the variables; a NaN.
     #[pyo3(signature = (function, time=0.0))]
     fn direct<'py>(&self, function: &Bound<'py, PyAny>, time: f64) -> PyResult<Bound<'py, PyDict>> {
         self.expressed(function, time, true)
     }
 
-    /// Expresses a function of the new variables in the old ones at a time.
+    /// Expresses a function of the new variables in the old ones at a time. Arguments, result and errors are as of `direct`, with old and new variables exchanged.
     ///
     /// Parameters
     /// ----------
@@ -181,11 +208,18 @@ impl DrivenNormalForm {
     /// ----------
     /// states : array_like, shape (2n,) or (m, 2n)
     /// time : float or array_like, shape (m,), optional
+    ///     0 by default [unit of time of the rates].
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (2n,) or (m, 2n)
     ///
     /// Raises
     /// ------
     /// InputError
     ///     An array of another length; a NaN.
+    /// TheoryError
+    ///     A state beyond the range of the series: the transformation misses it by more than 1 % of its distance from the periodic motion.
     #[pyo3(signature = (states, time=None))]
     fn to_normal<'py>(&self, states: &Bound<'py, PyAny>, time: Option<&Bound<'py, PyAny>>) -> PyResult<Array<'py>> {
         let n = 2 * self.space().degrees_of_freedom();
@@ -193,7 +227,7 @@ impl DrivenNormalForm {
             .map_at(n, time, |state, time| self.form().at(&self.phases(time)).to_normal(state))
     }
 
-    /// Transforms new variables to states. The errors are those of `to_normal`.
+    /// Transforms new variables to states. Shapes and input errors are those of `to_normal`.
     ///
     /// Parameters
     /// ----------
@@ -207,7 +241,7 @@ impl DrivenNormalForm {
         rows.map_at(n, time, |normal, time| self.form().at(&self.phases(time)).from_normal(normal))
     }
 
-    /// The actions of states. Along a motion they are almost constant.
+    /// The actions of states, shape (n,) or (m, n). Along a motion they are almost constant. The errors are those of `to_normal`.
     ///
     /// Parameters
     /// ----------
@@ -226,6 +260,16 @@ impl DrivenNormalForm {
     /// Parameters
     /// ----------
     /// actions : array_like, shape (n,) or (m, n)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (n,) or (m, n)
+    ///     [rad per unit of time]
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     An array of another length; a NaN; a negative action of a centre; a rate that overflows.
     fn frequency_map<'py>(&self, actions: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
         let n = self.space().degrees_of_freedom();
         Rows::new("actions", actions, n)?.map(n, |actions| self.form().frequencies(actions))
@@ -237,13 +281,18 @@ impl DrivenNormalForm {
     /// ----------
     /// state : array_like, shape (2n,)
     /// times : float or array_like, shape (m,)
-    ///     Counted from the time of the state.
+    ///     Counted from the time of the state [unit of time of the rates].
     /// time : float, optional
     ///     The time of the state, on which the phases depend.
     ///
     /// Returns
     /// -------
     /// ndarray, shape (2n,) or (m, 2n)
+    ///
+    /// Raises
+    /// ------
+    /// InputError, TheoryError
+    ///     As of `to_normal`.
     #[pyo3(signature = (state, times, time=0.0))]
     fn trajectory<'py>(&self, state: &Bound<'py, PyAny>, times: &Bound<'py, PyAny>, time: f64) -> PyResult<Array<'py>> {
         let n = 2 * self.space().degrees_of_freedom();
@@ -277,6 +326,8 @@ impl DrivenNormalForm {
     /// FileError
     ///     A text that is not JSON; another format or version; terms that do not fit; an averaged Hamiltonian that differs from the computed one by more than 1e-8 of its
     ///     largest coefficient.
+    /// InputError, TheoryError, RepresentationError
+    ///     Names, rates, exponents or a Hamiltonian that `normalize` refuses as well.
     ///
     /// Examples
     /// --------
@@ -308,7 +359,7 @@ impl DrivenNormalForm {
 
     /// Writes a source file with functions that evaluate this normal form. The file needs only the standard library of its language.
     ///
-    /// ``from_normal(normal, time)`` and ``to_normal(state, time)`` transform arrays q₁, p₁, q₂, …; ``actions(normal)`` returns the actions, and
+    /// ``from_normal(normal, time)`` and ``to_normal(state, time)`` transform arrays q₁, p₁, q₂, …, the latter by the inverse series, which ends at the order; ``actions(normal)`` returns the actions, and
     /// ``frequencies(actions)`` the rates ∂K/∂I.
     ///
     /// Parameters

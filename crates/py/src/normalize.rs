@@ -32,7 +32,7 @@ use crate::progress;
 ///     exponents in the order of `variables` and `parameters`, or a SymPy polynomial. Coefficients are int, Fraction, text
 ///     or float.
 /// order : int
-///     Order N, at least 0. Terms above degree N + 2 are ignored.
+///     Order N, at least 0. Terms above degree N + 2 have no effect; about a periodic motion x̄ they have one through their derivatives at x̄.
 /// variables : sequence of (str, str)
 ///     Up to four pairs (q, p), as names or SymPy symbols. All lists of exponents and states have the order q₁, p₁, q₂, p₂, …
 /// parameters : sequence of str, or dict of {str: number}, optional

@@ -61,6 +61,64 @@ def test_two_phases_move_as_the_formula_says():
     assert form.driven == {"a": (1.0, 0.0), "b": (0.7, 0.0)} and form.kinds == ("elliptic",)
 
 
+@pytest.mark.parametrize(("j", "k"), [(9, 9), (10, 9), (7, 7), (2, -11)])
+def test_harmonics_of_two_phases_are_those_of_the_formula(j, k):
+    # Harmonics that pass for lower ones on a grid of nine times, and at phases in the golden section.
+    rates, phases = (0.05, 0.03), (0.3, 0.4)
+    exact = 0.1 * math.cos(j * phases[0] + k * phases[1]) / (1 - (j * rates[0] + k * rates[1]) ** 2)
+    text = normalize(f"(p^2 + x^2)/2 - x*cos({j}*a {k:+}*b)/10", 0, PAIR, driven=dict(zip("ab", rates, strict=True)))
+    assert text.periodic(phases)[0] == pytest.approx(exact, abs=1e-13)
+    sampled = Driven(rates, lambda a, b: {(1, 0): -math.cos(j * a + k * b) / 10})
+    assert normalize("(p^2 + x^2)/2", 0, PAIR, driven=sampled).periodic(phases)[0] == pytest.approx(exact, abs=1e-13)
+
+
+@pytest.mark.parametrize("unit", [1e-12, 1e-3, 1e6])
+def test_form_in_another_unit_of_time_is_the_same(unit):
+    text = f"{unit}*((p^2 + x^2)/2 + x^4/4 - 0.3*x*cos(4*M))"
+    form, known = (normalize(one, 4, PAIR, driven={"M": rate}) for one, rate in ((text, 0.1 * unit), (text.replace(f"{unit}*", ""), 0.1)))
+    assert form.periodic(0.03) == pytest.approx(known.periodic(0.03), rel=1e-10)
+    assert form.frequencies[0] == pytest.approx(known.frequencies[0] * unit, rel=1e-12)
+    fast = Driven(0.0213 * unit, lambda M: {(2, 0): unit / 2, (0, 2): unit / 2, (1, 0): -0.3 * unit * math.cos(64 * M)})
+    assert normalize(None, 0, PAIR, driven=fast).periodic(0.03)[0] == pytest.approx(0.3 * math.cos(1.92) / (1 - (64 * 0.0213) ** 2), rel=1e-9)
+    with pytest.raises(andoyer.TheoryError, match="no periodic motion"):
+        normalize(f"{unit}*((p^2 + x^2)/2 - 0.3*x*cos(M))", 0, PAIR, driven={"M": unit})
+
+
+@pytest.mark.parametrize("mass", [1e-8, 1e5])
+def test_form_of_a_light_or_heavy_oscillator_is_the_same(mass):
+    # The canonical scaling x → x √m, p → p/√m.
+    text = f"p^2/{2 * mass!r} + {mass / 2!r}*x^2 + {mass**2 / 4!r}*x^4 - {0.3 * mass**0.5!r}*x*cos(M)"
+    form, known = normalize(text, 4, PAIR, driven={"M": 0.4}), normalize("(p^2 + x^2)/2 + x^4/4 - 0.3*x*cos(M)", 4, PAIR, driven={"M": 0.4})
+    assert form.in_actions() == pytest.approx(known.in_actions(), rel=1e-9)
+
+
+def test_small_force_and_large_force_move_a_linear_oscillator_as_the_formula_says():
+    for force, j, rate in ((1e-11, 64, 0.0213), (5e3, 1, 0.4), (1e6, 3, 0.4)):
+        form = normalize(f"(p^2 + x^2)/2 - {force}*x*cos({j}*M)", 0, PAIR, driven={"M": rate})
+        assert form.periodic(0.03)[0] == pytest.approx(force * math.cos(0.03 * j) / (1 - (j * rate) ** 2), rel=1e-9)
+
+
+def test_three_pairs_with_two_phases_and_a_saddle_move_as_an_integration():
+    text = "(p^2 + x^2)/2 + (q^2 + 2.3*y^2)/2 + (r^2 - 0.4*z^2)/2 + x^2*y/5 + y*z^2/4 - x*cos(a)/10 - y*cos(a - 2*b)/20 + x*z*sin(b)/10"
+    form = normalize(text, 4, [("x", "p"), ("y", "q"), ("z", "r")], driven={"a": (0.37, 0.2), "b": (-0.21, 0.5)})
+
+    def rates(t, s):
+        x, p, y, q, z, r = s
+        a, b = 0.2 + 0.37 * t, 0.5 - 0.21 * t
+        return [
+            p,
+            -x - 0.4 * x * y + math.cos(a) / 10 - z * math.sin(b) / 10,
+            q,
+            -2.3 * y - x * x / 5 - z * z / 4 + math.cos(a - 2 * b) / 20,
+            r,
+            0.4 * z - y * z / 2 - x * math.sin(b) / 10,
+        ]
+
+    assert form.kinds == ("elliptic", "elliptic", "hyperbolic")
+    start, times = form.periodic([0.2, 0.5]) + [0.02, 0.01, -0.02, 0.015, 1e-4, -1e-4], np.linspace(0, 8, 9)
+    assert form.trajectory(start, times) == pytest.approx(integrated(rates, start, times), abs=1e-6)
+
+
 def test_functions_are_expressed_at_a_time():
     form, state = normalize(DUFFING, 8, PAIR, driven=Driven(0.37)), np.array([0.22, 0.01])
     q, p = form.to_normal(state, time=1.5)
@@ -75,7 +133,7 @@ def test_functions_are_expressed_at_a_time():
     [
         ("(p^2 + x^2)/2 - x*cos(M)", {}, "no periodic motion"),
         ("(p^2 + x^2)/2 - 0.2*x^2*cos(2*M)", {"driven": Driven(2.0, names=["M"])}, ""),
-        ("(p^2 + x^2)/2 + x^3*cos(3*M)", {}, "small divisor"),
+        ("(p^2 + x^2)/2 + x^3*cos(3*M)", {}, r"small divisor at order 1: the term u1\^3 with the multiples \[3\] .* k = \[3, -3\]"),
     ],
 )
 def test_what_theory_cannot_do_says_why(text, options, words):
@@ -107,6 +165,29 @@ def test_bad_input_names_its_argument():
     form = normalize("(p^2 + x^2)/2", 2, PAIR, driven=Driven(1.0))
     with pytest.raises(andoyer.InputError, match="phases"):
         form.periodic([0.0, 1.0])
+    with pytest.raises(andoyer.InputError, match="phases contains NaN"):
+        form.periodic(math.nan)
+    with pytest.raises(andoyer.InputError, match="actions = -1 "):
+        form.frequency_map([-1.0])
+    with pytest.raises(andoyer.TheoryError, match="beyond the range"):
+        normalize("(p^2 + x^2)/2 + x^4/4", 6, PAIR, driven={"M": 1.7}).trajectory([3.0, 0.0], [0.0])
+    for divisor in (-1.0, 1.5, math.nan):
+        with pytest.raises(andoyer.InputError, match="smallest_divisor"):
+            normalize("(p^2 + x^2)/2", 2, PAIR, driven={"M": 0.4}, smallest_divisor=divisor)
+    for rate in (0, "1e-400", math.inf):
+        with pytest.raises(andoyer.InputError, match="M"):
+            normalize("(p^2 + x^2)/2", 2, PAIR, driven={"M": rate})
+    with pytest.raises(andoyer.InputError, match="while driven phase 0 goes from 0 to 2π"):
+        normalize("(p^2 + x^2)/2", 2, PAIR, driven=Driven(1.0, lambda M: {(1, 0): math.cos(M / 2)}))
+    with pytest.raises(TypeError, match="samples must be a callable, not int"):
+        Driven(1.0, 5)
+    with pytest.raises(andoyer.InputError, match="rate is empty"):
+        Driven([])
+    assert Driven(1.0, names="N").names == ["N"]
+    with pytest.raises(andoyer.TheoryError, match="100000"):
+        normalize("(p^2 + x^2)/2 + x*cos(M)/10", 0, PAIR, driven={"M": 1e-300})
+    with pytest.raises(andoyer.TheoryError, match="20000"):
+        normalize("(p^2 + x^2)/2 + x*cos(90*a)/10 + x*cos(90*b)/10", 0, PAIR, driven={"a": 0.0213, "b": 0.0311})
     with pytest.raises(andoyer.InputError, match="state"):
         form.trajectory([0.0], [1.0])
     assert repr(form) == f"<DrivenNormalForm of order 2 with M, {form.times} times>"

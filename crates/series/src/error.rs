@@ -119,14 +119,30 @@ crate::error_table! {
         => Input, facts(argument_of(what), term, "finite");
 
         /// A term that must be removed, but whose divisor is too small.
-        #[error("small divisor at order {order}: the term {term}, k = {k:?}, has |k·ω| = {divisor:?} below the bound {bound:?}; keep it as a resonance, or lower the bound")]
+        #[error("small divisor at order {order}: the term {term}, k = {k:?}, has |k·ω| = {divisor:?} below the bound {bound:?}, which is smallest_divisor times the largest frequency; keep it as a resonance, or lower smallest_divisor")]
         SmallDivisor {
             order: usize = "Order of the term: its degree minus 2.",
             term: String = "The term in the complex variables u, U of the pairs.",
             k: Vec<i64> = "k: the exponents of U minus the exponents of u, then j of the driven phases.",
-            divisor: f64 = "|k·ω|.",
+            divisor: f64 = "|k·ω|, with the rates of driven phases after the frequencies in ω.",
             bound: f64 = "The bound: the relative smallest divisor times the largest frequency.",
         } => Theory, facts("resonances", *divisor, *bound);
+
+        /// A coefficient of a driven Hamiltonian that does not have the period of a phase.
+        #[error("a coefficient changes by {change:.3e} while driven phase {phase} goes from 0 to 2π; the largest coefficient is {largest:.3e}")]
+        NotPeriodic {
+            phase: usize = "The number of the phase.",
+            change: f64 = "The change of the coefficient.",
+            largest: f64 = "The largest coefficient at these phases.",
+        } => Input, facts("driven", *change, "coefficients of the period 2π");
+
+        /// The solutions over a period of a driven phase take too many steps.
+        #[error("over the period of the first driven phase, whose rate is {rate:?}, the linear motion takes {steps:.0} steps, more than {bound}; the other rates of the Hamiltonian are too large beside it")]
+        PhaseTooSlow {
+            rate: f64 = "The rate of the phase.",
+            steps: f64 = "The number of steps.",
+            bound: usize = "The most steps.",
+        } => Theory, facts("driven", *rate, *bound);
 
         /// Newton's iteration finds no periodic motion of a driven Hamiltonian.
         #[error("no periodic motion continues the equilibrium: {steps} steps end with a step of {miss:?}; the drive is too strong, or in resonance with a mode")]
@@ -135,20 +151,31 @@ crate::error_table! {
             steps: usize = "The number of steps.",
         } => Theory, facts("driven", *miss, "convergence");
 
+        /// A state that is beyond the range of a driven normal form.
+        #[error("the state is beyond the range of the series: at a distance of {distance:.3e} from the periodic motion the transformation misses it by {miss:.3e}; domain().best_order(amplitude) has the range")]
+        BeyondSeries {
+            miss: f64 = "How far the nearest image of the transformation is from the state, in units of the variables.",
+            distance: f64 = "The distance of the state from the periodic motion.",
+        } => Theory, facts("state", *distance, "distances at which the order converges");
+
         /// The motion about a periodic solution has multipliers for which no real periodic frame is built.
-        #[error("the multipliers e^(λT) of the periodic motion, {multipliers:?} as (re, im), {problem}")]
+        #[error("the multipliers e^(λT) of the periodic motion over the period of the first phase, {multipliers:?} as (re, im), {problem}")]
         MultiplierUnsupported {
             multipliers: Vec<[f64; 2]> = "The multipliers over the period of the first phase, as real and imaginary parts.",
             problem: &'static str = "What they are.",
         } => Theory, facts("driven", format!("{multipliers:?}"), "distinct multipliers on the circle, or positive ones");
 
         /// The coefficients of a driven Hamiltonian have too many harmonics.
-        #[error("with {harmonics} harmonics of a driven phase the last ones are {rest:?}, above the tolerance {tolerance:?}")]
+        #[error("with {harmonics} harmonics of a driven phase, the most that are held, the last ones are {rest:?}, above the tolerance {tolerance:?}")]
         GridTooFine {
             harmonics: usize = "The most harmonics of a phase.",
             rest: f64 = "The largest of the last harmonics.",
             tolerance: f64 = "The tolerance.",
         } => Theory, facts("driven", *rest, *tolerance);
+
+        /// The harmonics of several driven phases need too many times together.
+        #[error("the harmonics of the driven phases need a grid of {times} times, more than {bound}")]
+        GridTooLarge { times: usize = "The product over the phases.", bound: usize = "The most times." } => Theory, facts("driven", *times, *bound);
 
         /// A force in resonance with a mode: its motion grows without bound.
         #[error("the force {term} is in resonance with a mode: its divisor {divisor:?} is below the bound {bound:?}, and no bounded forced motion exists; give its amplitude as a parameter of degree 1 or more to keep the term as a resonance, or lower the bound")]

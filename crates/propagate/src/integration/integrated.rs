@@ -70,11 +70,20 @@ impl Integrated {
         })
     }
 
+    /// The same by the steps that the tolerance asks for at first, whose errors are not measured: for comparisons. The error bound is infinite.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`], [`Error::TooManySteps`], and those of a scene that cannot be integrated.
+    pub(crate) fn unmeasured(scene: &Scene, stop: &AtomicBool) -> Result<Self, Error> {
+        let problem = Problem::new(scene, "")?;
+        let precision = Precision::of(problem.first_error());
+        let [before, after] = [0, 1].map(|side| problem.steps(side, precision, stop));
+        Ok(problem.motion(precision.order, [before?.0, after?.0], (f64::INFINITY, None)))
+    }
+
     fn of(problem: &Problem, scene: &Scene, stop: &AtomicBool) -> Result<Self, Error> {
         let tolerance = scene.asked_tolerance();
-        let phase = problem.phase();
-        // Truncation errors of the rates add up over the steps, and their effect on the angle over time.
-        let first = (CAREFUL * tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST);
+        let first = problem.first_error();
         let (mut motion, mut profiles) = problem.solved(first, stop)?;
         // Shorter steps leave the interpolation of a table as it is.
         let error = motion.uninterpolated.unwrap_or(motion.error);
@@ -250,16 +259,34 @@ impl Problem {
         if square > 0.0 { largest(&self.equations.factors) * largest(&products) / square } else { 0.0 }
     }
 
+    /// The relative truncation error of the first integration: those of the rates add up over the steps, and their effect on the angle over time.
+    fn first_error(&self) -> f64 {
+        let phase = self.phase();
+        (CAREFUL * self.tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST)
+    }
+
+    /// The steps before the epoch, 0, or after it, 1, and where they end.
+    fn steps(&self, side: usize, precision: Precision, stop: &AtomicBool) -> Result<(Side, Runner<4>), Error> {
+        let (equations, target) = (&self.equations, self.ends[side]);
+        let runner = Runner::new(self.attitude, self.rates, side == 0);
+        dispatch_few(Arch::new(), KeptSteps { equations, precision, runner, target, stop })
+    }
+
+    /// The motion by some steps; `bounds` are the error bound, and that without the interpolation of a table where this dominates.
+    fn motion(&self, order: usize, sides: [Side; 2], (error, uninterpolated): (f64, Option<f64>)) -> Integrated {
+        let Self { exponent, reach, torques, .. } = *self;
+        Integrated { equations: self.equations.clone(), order, sides, exponent, reach, error, uninterpolated, torques }
+    }
+
     /// By steps of this relative error, with the error bounds before and after the epoch.
     fn solved(&self, error: f64, stop: &AtomicBool) -> Result<(Integrated, [Profile; 2]), Error> {
-        let (arch, precision, equations) = (Arch::new(), Precision::of(error), &self.equations);
+        let precision = Precision::of(error);
         let mut sides = [Side::default(), Side::default()];
         let mut profiles = [Profile::new(), Profile::new()];
         let (mut bound, mut uninterpolated) = (FLOOR, FLOOR);
-        for (side, target) in self.ends.into_iter().enumerate() {
+        for side in 0..2 {
             let backward = side == 0;
-            let runner = Runner::new(self.attitude, self.rates, backward);
-            let (kept, runner) = dispatch_few(arch, KeptSteps { equations, precision, runner, target, stop })?;
+            let (kept, runner) = self.steps(side, precision, stop)?;
             if kept.steps.len() > 1 {
                 let largest = |profile: &Profile| profile.last().map_or(FLOOR, |(_, error)| *error);
                 let mut profile = self.measured(&kept.steps, (precision, &runner), backward, stop)?;
@@ -272,22 +299,9 @@ impl Problem {
             }
             sides[side] = kept;
         }
-        let Self { exponent, reach, .. } = *self;
-        let equations = equations.clone();
         let dominated = bound > self.tolerance && 2.0 * uninterpolated < bound;
-        let uninterpolated = dominated.then_some(uninterpolated);
-        let order = precision.order;
-        let motion = Integrated {
-            equations,
-            order,
-            sides,
-            exponent,
-            reach,
-            error: bound,
-            uninterpolated,
-            torques: self.torques,
-        };
-        Ok((motion, profiles))
+        let bounds = (bound, dominated.then_some(uninterpolated));
+        Ok((self.motion(precision.order, sides, bounds), profiles))
     }
 
     /// The farthest of the ends of 1, 2, 4, … steps at which an integration up to there meets the tolerance. The bound of a longer integration has the errors of all

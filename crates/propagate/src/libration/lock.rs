@@ -19,7 +19,7 @@ const MOST_IN_TWO: i32 = 8;
 /// A Hansen coefficient of the resonance below this is rounding.
 const NO_TORQUE: f64 = 1e-13;
 
-/// Largest angle of the body from the frame \[rad\], beyond which no series is tried.
+/// Largest angle of the body from the frame \[rad\], beyond which no series is tried; also the amplitude of a swing whose resonance is not the nearest one.
 const LARGEST_ANGLE: f64 = 0.6;
 
 /// A scene in the frame of its resonance.
@@ -70,7 +70,7 @@ impl Lock {
             if orders.contains(&twice)
                 && (spin - f64::from(twice) / 2.0).powi(2) < fastest
                 && let Ok(other) = of(twice)
-                && found.as_ref().map_or(true, |lock| other.amplitude_squared() < lock.amplitude_squared())
+                && other.amplitude_squared() < found.as_ref().map_or(LARGEST_ANGLE.powi(2), Self::amplitude_squared)
             {
                 found = Ok(other);
             }

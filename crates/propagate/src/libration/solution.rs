@@ -74,7 +74,7 @@ pub(crate) fn solved(lock: Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<R
     match climb(&lock, wanted, stop) {
         Ok(found) => Ok(found),
         Err(SeriesError::Interrupted { .. }) => Err(Error::Stopped),
-        Err(error) => Ok(Err(error.to_string())),
+        Err(error) => Ok(Err(format!("about the resonance {}, {error}", in_words(lock.shape.twice)))),
     }
 }
 

@@ -34,7 +34,7 @@ impl LibrationAngle {
 /// A term of an angle: amplitude · sin(phase + 2π (t − epoch)/period).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LibrationTerm {
-    /// Multiples of the three proper angles, of the mean anomaly M, and of the angle α = r M + ω + ψ₀ from the node of a precessing orbit.
+    /// Multiples of the three proper angles, of the mean anomaly M, and of the angle α = r M + ω + ψ₀ from the node of a precessing orbit; their rate 2π/period is positive.
     pub multiples: [i64; 5],
     /// Unit of time; infinite for a constant.
     pub period: f64,
@@ -149,11 +149,10 @@ impl Libration {
         let rate = self.course.rate(multiples) * self.lock.mean_motion;
         let still = multiples.iter().all(|&k| k == 0);
         let amplitude = if still { Complex::new(amplitude.re, 0.0) } else { amplitude };
-        // Re c e^{iα} = |c| sin(α + arg c + π/2); a rate below 0 belongs to the same term with the other sign.
+        // Re c e^{iα} = |c| sin(α + arg c + π/2); a rate below 0 belongs to the same term with the opposite multiples.
         let phase = self.course.phase(multiples, 0.0) + amplitude.arg() + FRAC_PI_2;
-        let (rate, phase) = if rate < 0.0 { (-rate, PI - phase) } else { (rate, phase) };
-        let mut all = [0; 5];
-        all.copy_from_slice(multiples);
+        let (sign, rate, phase) = if rate < 0.0 { (-1, -rate, PI - phase) } else { (1, rate, phase) };
+        let all = std::array::from_fn(|k| sign * multiples[k]);
         let phase = phase - TAU * (phase / TAU).round();
         let period = if still { f64::INFINITY } else { TAU / rate };
         (amplitude.norm() > 0.0).then(|| LibrationTerm {

@@ -1,15 +1,18 @@
 //! The motion by the normal form about a spin–orbit resonance.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use andoyer_double::two_sum;
+use nalgebra::{Quaternion, UnitQuaternion};
+
 use super::free::{self, Preparation};
-use super::integrated;
 use crate::error::Error;
 use crate::input::options::Method;
 use crate::input::scene::Scene;
-use crate::integration::integrated::verification_cost;
+use crate::integration::dense::Cursor;
+use crate::integration::integrated::{Integrated, verification_cost};
 use crate::libration::evaluate::LibrationEvaluator;
 use crate::libration::lock::Lock;
 use crate::libration::solution::{self, Wanted};
@@ -24,8 +27,8 @@ use crate::torque_free::series::tables::SeriesTables;
 /// others: the slow phases of a precessing orbit take hundreds of orbits, and a series that misses its tolerance can lack the terms of a resonance, which its estimate does not see.
 const CHECKED: [f64; 2] = [30.0, 1000.0];
 /// Times at which they are compared.
-const TIMES: usize = 32;
-/// An estimate that was refuted becomes what was seen, times this and the growth over the span.
+const TIMES: usize = 64;
+/// What was seen at these times becomes an error bound times this and the growth over the span.
 const SAFETY: f64 = 2.0;
 /// The least tolerance of this integration \[rad\].
 const FINEST: f64 = 1e-12;
@@ -62,27 +65,49 @@ fn of_lock(scene: Scene, lock: Lock, tables: &SeriesTables, stop: &AtomicBool) -
     let trajectory = Trajectory::Forced(Arc::new(LibrationEvaluator::new(libration)));
     let mut motion = Motion { scene, plan, trajectory, ..free };
     let farthest = if -reach[0] > reach[1] { reach[0] } else { reach[1] };
-    let orbits = CHECKED[usize::from(precesses || !motion.plan.meets_tolerance())];
-    let growth = (farthest.abs() / (orbits * TAU)).max(1.0);
-    let seen = departure(&motion, farthest / growth / n, tables, stop)?;
-    if seen > motion.plan.error_bound {
-        motion.plan.error_bound = (SAFETY * seen * growth).min(std::f64::consts::PI);
-    }
+    motion.plan.error_bound = checked(&motion, n, farthest, precesses, stop)?;
     Ok(motion)
 }
 
-/// How far a libration departs from an integration over a time from the epoch, beyond the bound of the integration.
-fn departure(motion: &Motion, time: f64, tables: &SeriesTables, stop: &AtomicBool) -> Result<f64, Error> {
-    let epoch = motion.scene.state().epoch;
-    let tolerance = (motion.plan.error_bound / 10.0).max(FINEST);
-    let short = motion.scene.clone().span(epoch + time.min(0.0), epoch + time.max(0.0)).tolerance(tolerance);
-    let integration = integrated::motion(short, tables, String::new(), stop)?;
-    let (mut most, count) = (0.0_f64, TIMES);
-    for k in 1..=count {
-        let at = epoch + time * (k as f64 / count as f64);
-        most = most.max(motion.at(at)?.attitude.angle_to(&integration.at(at)?.attitude));
+/// The error bound of a libration after a comparison with an integration from the epoch to the farther end of the span, or over as many orbits as are compared.
+///
+/// A bound that is refuted becomes what was seen, times [`SAFETY`] and the growth over the span. The same holds for a bound above the tolerance where the whole span was compared
+/// and the result is smaller. The integration's own bound is computed only in these cases.
+fn checked(motion: &Motion, mean_motion: f64, farthest: f64, precesses: bool, stop: &AtomicBool) -> Result<f64, Error> {
+    let (epoch, bound) = (motion.scene.state().epoch, motion.plan.error_bound);
+    let misses = !motion.plan.meets_tolerance();
+    let orbits = CHECKED[usize::from(precesses || misses)];
+    let growth = (farthest.abs() / (orbits * TAU)).max(1.0);
+    let time = farthest / growth / mean_motion;
+    let tolerance = (bound.min(motion.scene.asked_tolerance()) / 10.0).max(FINEST);
+    let compared = motion.scene.clone().span(epoch + time.min(0.0), epoch + time.max(0.0)).tolerance(tolerance);
+    let elapsed: [f64; TIMES] = std::array::from_fn(|k| time * ((k + 1) as f64 / TIMES as f64));
+    let mut attitudes = [[0.0; 4]; TIMES];
+    motion.attitudes_into(&elapsed.map(|time| epoch + time), &mut attitudes)?;
+    let departure = |integration: &Integrated| {
+        let mut cursor = Cursor::new(integration);
+        let apart = |(time, attitude): (&f64, &[f64; 4])| {
+            let integrated = cursor.at(two_sum(epoch + time, -epoch)).0;
+            rotation(*attitude).angle_to(&rotation(integrated))
+        };
+        elapsed.iter().zip(&attitudes).map(apart).fold(0.0, f64::max)
+    };
+    let is_measured = misses && growth == 1.0;
+    if !is_measured && departure(&Integrated::unmeasured(&compared, stop)?) <= bound {
+        return Ok(bound);
     }
-    Ok(most - integration.plan.error_bound)
+    let integration = Integrated::new(&compared, "", stop)?;
+    let seen = departure(&integration);
+    let measured = (SAFETY * seen * growth + integration.error).min(PI);
+    Ok(match seen - integration.error > bound {
+        true => measured,
+        false if is_measured => bound.min(measured),
+        false => bound,
+    })
+}
+
+fn rotation(attitude: [f64; 4]) -> UnitQuaternion<f64> {
+    UnitQuaternion::new_unchecked(Quaternion::from(attitude))
 }
 
 /// The libration of a scene if it meets the tolerance, or why not, where a body is near a resonance.

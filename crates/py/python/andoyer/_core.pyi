@@ -907,13 +907,13 @@ class DrivenNormalForm:
     def direct(self, function: _Expression, time: float = 0.0) -> dict[tuple[int, ...], float]:
         """Expresses a function of the old variables in the new ones at a time."""
     def inverse(self, function: _Expression, time: float = 0.0) -> dict[tuple[int, ...], float]:
-        """Expresses a function of the new variables in the old ones at a time."""
+        """Expresses a function of the new variables in the old ones at a time. Arguments, result and errors are as of `direct`, with old and new variables exchanged."""
     def to_normal(self, states: ArrayLike, time: ArrayLike | None = None) -> _Array:
         """Transforms states to the new variables, by iteration on the inverse of this transformation."""
     def from_normal(self, states: ArrayLike, time: ArrayLike | None = None) -> _Array:
-        """Transforms new variables to states. The errors are those of `to_normal`."""
+        """Transforms new variables to states. Shapes and input errors are those of `to_normal`."""
     def actions(self, states: ArrayLike, time: ArrayLike | None = None) -> _Array:
-        """The actions of states. Along a motion they are almost constant."""
+        """The actions of states, shape (n,) or (m, n). Along a motion they are almost constant. The errors are those of `to_normal`."""
     def frequency_map(self, actions: ArrayLike) -> _Array:
         """The rates ∂K/∂I at actions: frequencies of centres, growth rates of saddles."""
     def trajectory(self, state: ArrayLike, times: ArrayLike, time: float = 0.0) -> _Array:

@@ -353,7 +353,7 @@ pub(crate) fn check(what: &'static str, values: &[f64], expected: usize) -> Resu
     finite(what, values.to_vec()).map(drop)
 }
 
-fn finite(what: &'static str, values: Vec<f64>) -> Result<Vec<f64>, Error> {
+pub(crate) fn finite(what: &'static str, values: Vec<f64>) -> Result<Vec<f64>, Error> {
     match values.iter().position(|value| !value.is_finite()) {
         None => Ok(values),
         Some(at) => Err(Error::NotFinite { what, term: format!("{} at {at}", values[at]) }),

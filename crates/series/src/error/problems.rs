@@ -18,14 +18,16 @@ pub enum ParseProblem {
     UnknownName(String),
     /// A name before a bracket: a function.
     #[error(
-        "{0:?} is a function, and only polynomials are read: expand it as a Taylor polynomial, for a normal form of order N to degree N + 2"
+        "{0:?} is a function, and only polynomials are read, and cosines and sines of named driven phases: expand it as a Taylor polynomial, for a normal form of order N to degree N + 2"
     )]
     Function(String),
     /// A driven phase outside of a cosine or a sine.
     #[error("{0:?} is a driven phase: it stands in cos(j*{0}) and sin(j*{0}) only")]
     PhaseAlone(String),
     /// A cosine or sine whose angle is not a sum of multiples of driven phases.
-    #[error("the angle of a cosine or sine is a sum of integer multiples (below 65536) of driven phases")]
+    #[error(
+        "the angle of a cosine or sine is a sum of integer multiples (below 65536) of driven phases; their rates are given apart, as for cos(2*M) with driven={{\"M\": 1.7}} in Python"
+    )]
     Angle,
     /// A square root.
     #[error(

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use num_complex::Complex;
 use num_traits::Zero;
 
+use super::frame::fastest;
 use super::motion::PeriodicMotion;
 use super::row::Periodic;
 use crate::error::Error;
@@ -44,8 +45,7 @@ pub(super) fn removal(
 ) -> Result<Removal<Periodic>, Error> {
     let (mut image, mut solution) = (Vec::new(), Vec::new());
     let grid = &motion.grid;
-    let fastest = motion.modes.iter().map(|one| one.frequency().norm()).fold(0.0, f64::max);
-    let rounding = ROUNDING * known.terms().map(|(_, c)| c.size()).fold(fastest, f64::max);
+    let rounding = ROUNDING * known.terms().map(|(_, c)| c.size()).fold(fastest(&motion.modes), f64::max);
     for (monomial, c) in known.terms() {
         if monomial == Monomial::ONE {
             image.push((monomial, c.clone()));
@@ -70,11 +70,18 @@ pub(super) fn removal(
                 continue;
             }
             if divisor.norm() < bound {
-                let j = grid.multiples(at);
+                let names: Vec<String> =
+                    (1..=k.len()).flat_map(|mode| ["u", "U"].map(|name| format!("{name}{mode}"))).collect();
+                let names: Vec<&str> = names.iter().map(String::as_str).collect();
+                let term = Polynomial::<f64>::from_terms([(monomial, 1.0)]);
                 return Err(Error::SmallDivisor {
                     order,
-                    term: format!("multiples {j:?} of the driven phases"),
-                    k: [k, j].concat(),
+                    term: format!(
+                        "{} with the multiples {:?} of the driven phases",
+                        term.display(&names),
+                        grid.multiples(at)
+                    ),
+                    k: first_positive([k, grid.multiples(at)].concat()),
                     divisor: divisor.norm(),
                     bound,
                 });
@@ -85,6 +92,14 @@ pub(super) fn removal(
         solution.push((monomial, grid.function(&harmonics)));
     }
     Ok(Removal { image: Polynomial::from_terms(image), solution: Polynomial::from_terms(solution) })
+}
+
+/// Multiples with the sign that makes the first of them positive.
+fn first_positive(mut multiples: Vec<i64>) -> Vec<i64> {
+    if multiples.iter().find(|&&k| k != 0).is_some_and(|&k| k < 0) {
+        multiples.iter_mut().for_each(|k| *k = -*k);
+    }
+    multiples
 }
 
 /// The smallest divisors of harmonics that count.
@@ -98,10 +113,7 @@ pub(super) fn divisors(motion: &PeriodicMotion, transform: &LieTransform<Periodi
                 if c.norm() <= NEGLIGIBLE * most {
                     continue;
                 }
-                let mut multiples = [k.clone(), motion.grid.multiples(at)].concat();
-                if multiples.iter().find(|&&k| k != 0).is_some_and(|&k| k < 0) {
-                    multiples.iter_mut().for_each(|k| *k = -*k);
-                }
+                let multiples = first_positive([k.clone(), motion.grid.multiples(at)].concat());
                 let own: Complex<f64> =
                     multiples.iter().zip(&motion.modes).map(|(&k, one)| one.frequency() * k as f64).sum();
                 let driven: f64 =

@@ -15,6 +15,7 @@ use std::sync::Arc;
 use num_complex::Complex;
 
 use super::divisors::{Divisor, divisors, removal};
+use super::frame::fastest;
 use super::grid::Grid;
 use super::hamiltonian::DrivenHamiltonian;
 use super::images::Images;
@@ -23,7 +24,7 @@ use super::row::Periodic;
 use super::start::eigenvalues;
 use crate::birkhoff::Mode;
 use crate::birkhoff::domain::{Domain, size};
-use crate::birkhoff::map::{check, needed};
+use crate::birkhoff::map::{check, finite, needed};
 use crate::birkhoff::matrix::symplectic_inverse;
 use crate::bracket::Poisson;
 use crate::error::Error;
@@ -35,6 +36,8 @@ use crate::triangle::{LieTransform, Progress, normalize_backwards, stop};
 const FEWEST: usize = 4;
 /// Coefficients may differ between the times of a grid by so many times the tolerance of its last harmonics.
 const BETWEEN: f64 = 100.0;
+/// Most times of a grid of several phases: a Newton step takes some seconds with one pair.
+const MOST_TIMES: usize = 20_000;
 /// Grids without a solution after which there is none.
 const FAILURES: usize = 4;
 
@@ -72,7 +75,8 @@ impl DrivenForm {
     ///
     /// # Errors
     /// - no periodic motion: [`Error::NoPeriodicMotion`]; no frame: [`Error::MultiplierUnsupported`]; a divisor below the smallest: [`Error::SmallDivisor`];
-    /// - more harmonics of a phase than [`DrivenOptions::harmonics`]: [`Error::GridTooFine`]; a callback that returns `Break`: [`Error::Interrupted`].
+    /// - more harmonics of a phase than [`DrivenOptions::harmonics`]: [`Error::GridTooFine`]; more than 20,000 times of several phases: [`Error::GridTooLarge`];
+    /// - a phase that is too slow beside the frequencies: [`Error::PhaseTooSlow`]; coefficients of another period: [`Error::NotPeriodic`]; a callback that returns `Break`: [`Error::Interrupted`].
     pub fn new(
         system: &dyn DrivenHamiltonian,
         rates: &[f64],
@@ -116,8 +120,7 @@ impl DrivenForm {
                 series[order].add_term(monomial, c);
             }
         }
-        let fastest = motion.modes.iter().map(|one| one.frequency().norm()).fold(0.0, f64::max);
-        let bound = options.smallest_divisor * fastest;
+        let bound = options.smallest_divisor * fastest(&motion.modes);
         let solve = |order: usize, known: &Polynomial<Periodic>| removal(&motion, bound, order, known);
         let normal = normalize_backwards(&series, &poisson, options.order, &solve, progress)?;
         let mut hamiltonian = Polynomial::zero();
@@ -217,7 +220,7 @@ impl DrivenForm {
     /// The rates ∂K/∂I at actions: frequencies of centres, growth rates of saddles.
     ///
     /// # Errors
-    /// - another number of actions: [`Error::CountMismatch`]; a result that is not finite: [`Error::NotFinite`].
+    /// - another number of actions: [`Error::CountMismatch`]; −1 for a centre: [`Error::OutsideInterval`]; a result that is not finite: [`Error::NotFinite`].
     pub fn frequencies(&self, actions: &[f64]) -> Result<Vec<f64>, Error> {
         self.frequencies_of_order(self.order(), actions)
     }
@@ -228,8 +231,14 @@ impl DrivenForm {
     /// - Those of [`frequencies`](Self::frequencies).
     pub fn frequencies_of_order(&self, order: usize, actions: &[f64]) -> Result<Vec<f64>, Error> {
         check("actions", actions, self.motion.modes.len())?;
+        let negative = self.modes().iter().zip(actions).find(|(mode, action)| mode.is_elliptic() && **action < 0.0);
+        if let Some((_, &value)) = negative {
+            return Err(Error::OutsideInterval { argument: "actions", value, lower: 0.0, upper: f64::INFINITY });
+        }
         let truncation = Truncation::total((order / 2) as u32);
-        self.frequencies.iter().map(|frequency| frequency.truncate(&truncation).evaluate(actions)).collect()
+        let rates: Result<Vec<f64>, Error> =
+            self.frequencies.iter().map(|frequency| frequency.truncate(&truncation).evaluate(actions)).collect();
+        finite("frequencies", rates?)
     }
 }
 
@@ -241,15 +250,24 @@ fn settled(
     DrivenOptions { order, tolerance, harmonics, .. }: DrivenOptions,
     progress: &mut Progress<'_>,
 ) -> Result<PeriodicMotion, Error> {
-    let mut halves = vec![FEWEST; rates.len()];
+    let first = system.harmonics().iter().copied().chain(std::iter::repeat(FEWEST));
+    let rounded = |half: usize| half.max(FEWEST).next_multiple_of(4).min(harmonics);
+    let mut halves: Vec<usize> = first.take(rates.len()).map(rounded).collect();
+    let mut going = || stop(progress(0, order), 0, order);
     let (mut known, mut failures) = (None, 0);
     loop {
-        stop(progress(0, order), 0, order)?;
+        going()?;
         let phases: Vec<_> = rates.iter().copied().zip(halves.iter().copied()).collect();
         let grid = Grid::new(&phases);
+        if rates.len() > 1 && grid.times() > MOST_TIMES {
+            return Err(Error::GridTooLarge { times: grid.times(), bound: MOST_TIMES });
+        }
         let between = system.between_times(&grid)?;
         let resolved = between <= BETWEEN * tolerance;
-        let found = resolved.then(|| PeriodicMotion::new(system, grid, known.as_ref()));
+        let found = resolved.then(|| PeriodicMotion::new(system, grid, known.as_ref(), &mut going));
+        if let Some(Err(error @ Error::Interrupted { .. })) = found {
+            return Err(error);
+        }
         let tails = match &found {
             Some(Ok(motion)) => motion.tails.clone(),
             Some(Err(_)) => vec![f64::INFINITY; rates.len()],

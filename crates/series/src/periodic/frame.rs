@@ -20,9 +20,9 @@ pub(super) const REACHED: f64 = 1e-14;
 /// A step that is not smaller than this part of the one before ends the iteration, where both are small.
 pub(super) const SLOWEST: f64 = 0.5;
 pub(super) const SMALL: f64 = 1e-9;
-/// A divisor below this part of the eigenvalue is a resonance, unless the harmonic is rounding.
+/// A divisor below this part of the eigenvalue is a resonance, unless the harmonic is rounding: below the second number, in units of the largest frequency.
 const RESONANT: f64 = 1e-10;
-const NOISE: f64 = 1e-12;
+pub(super) const NOISE: f64 = 1e-12;
 /// Most steps towards P, and their largest size.
 const FRAMES: usize = 25;
 const LARGEST: f64 = 0.3;
@@ -60,11 +60,14 @@ fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut modes): Fram
             }
         }
         let eigenvalues: Vec<_> = modes.iter().flat_map(eigenvalues).collect();
+        let noise = NOISE * fastest(&modes);
         let step: Matrix<Periodic> = rates
             .iter()
             .enumerate()
             .map(|(a, row)| {
-                let one = |(b, entry): (usize, &Periodic)| solved(grid, entry, eigenvalues[a] - eigenvalues[b], a == b);
+                let one = |(b, entry): (usize, &Periodic)| {
+                    solved(grid, entry, (eigenvalues[a] - eigenvalues[b], noise), a == b)
+                };
                 row.iter().enumerate().map(one).collect()
             })
             .collect();
@@ -88,15 +91,19 @@ fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut modes): Fram
     Err(Error::MultiplierUnsupported { multipliers: multipliers(grid, &modes), problem })
 }
 
-/// The solution f of n∂f − λ f = `function`, in the harmonics that the grid solves for, and without the mean if it is `kept`.
-pub(super) fn solved(grid: &Grid, function: &Periodic, lambda: Complex<f64>, kept: bool) -> Periodic {
+/// The largest modulus of the frequencies and rates of modes.
+pub(super) fn fastest(modes: &[Mode<f64>]) -> f64 {
+    modes.iter().map(|one| one.frequency().norm()).fold(0.0, f64::max)
+}
+
+/// The solution f of n∂f − λ f = `function`, in the harmonics that the grid solves for, and without the mean if it is `kept`. Harmonics up to `noise` are no resonances.
+pub(super) fn solved(grid: &Grid, function: &Periodic, (lambda, noise): (Complex<f64>, f64), kept: bool) -> Periodic {
     grid.filtered(function, |at, c| {
         if (at == 0 && kept) || !grid.is_solved(at) || c.is_zero() {
             return Complex::zero();
         }
         let divisor = Complex::new(0.0, grid.rate(at)) - lambda;
-        // Rounding is no resonance.
-        if divisor.norm() <= RESONANT * lambda.norm() && c.norm() <= NOISE { Complex::zero() } else { c / divisor }
+        if divisor.norm() <= RESONANT * lambda.norm() && c.norm() <= noise { Complex::zero() } else { c / divisor }
     })
 }
 

@@ -274,7 +274,7 @@ impl Grid {
     #[must_use]
     pub fn weights(&self, phases: &[f64]) -> Vec<f64> {
         let along = |(axis, phase): (&Axis, &f64)| -> Vec<f64> {
-            let count = axis.count as f64;
+            let (count, phase) = (axis.count as f64, phase.rem_euclid(TAU));
             // (1 + 2 Σ cos j x)/N = sin(N x/2)/(N sin(x/2))
             let weight = |place: usize| {
                 let angle = phase - TAU * place as f64 / count;

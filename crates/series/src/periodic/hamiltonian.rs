@@ -28,31 +28,65 @@ pub trait DrivenHamiltonian: Sync {
         degree: u32,
     ) -> Result<Polynomial<Periodic>, Error>;
 
-    /// The largest difference between a coefficient and its interpolation, at phases between the times of a grid, relative to the largest coefficient or to 1. A harmonic beyond
-    /// the grid passes for a lower one at its times. The default is 0, for coefficients that have all harmonics up to their highest, as those of an ellipse: the last ones tell.
+    /// The largest difference between a coefficient and its interpolation, at phases between the times of a grid, relative to this coefficient. A harmonic beyond the grid passes for
+    /// a lower one at its times. The default is 0, for coefficients that have all harmonics up to their highest, as those of an ellipse: the last ones tell.
     ///
     /// # Errors
-    /// - Those of the coefficients.
+    /// - Those of the coefficients; a coefficient that does not have the period 2π of a phase: [`Error::NotPeriodic`].
     fn between_times(&self, _grid: &Grid) -> Result<f64, Error> {
         Ok(0.0)
+    }
+
+    /// The harmonics of each phase that a first grid must hold; those that are not given are few.
+    fn harmonics(&self) -> &[usize] {
+        &[]
     }
 }
 
 /// Phases at which coefficients are compared between the times of a grid.
 const BETWEEN: u32 = 8;
-/// (√5 − 1)/2.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// Their roots are the steps of the phases in turns: no combination of them with integers is one.
+const PRIMES: [f64; 8] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0];
+/// A coefficient below this part of the largest one is rounding.
+const ROUNDING: f64 = 1e-15;
+/// Coefficients at 0 and 2π differ by less than this part of the coefficient.
+const CLOSED: f64 = 1e-9;
 
 /// A polynomial Hamiltonian whose coefficients are functions of the driven phases.
 pub struct SampledHamiltonian<F> {
     pairs: usize,
     samples: F,
+    harmonics: Vec<usize>,
 }
 
 impl<F: Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync> SampledHamiltonian<F> {
     /// The Hamiltonian of `pairs` pairs whose terms at phases \[rad\] are `samples`.
     pub fn new(pairs: usize, samples: F) -> Self {
-        Self { pairs, samples }
+        Self { pairs, samples, harmonics: Vec::new() }
+    }
+
+    /// The same with the highest harmonic of each phase where it is known.
+    #[must_use]
+    pub fn with_harmonics(self, harmonics: Vec<usize>) -> Self {
+        Self { harmonics, ..self }
+    }
+
+    /// Whether each coefficient has the period 2π of each phase, but for rounding of the phase.
+    fn closes(&self, phases: usize) -> Result<(), Error> {
+        let at = |phases: &[f64]| Ok::<_, Error>(Polynomial::from_terms((self.samples)(phases)?));
+        let start = at(&vec![0.0; phases])?;
+        for phase in 0..phases {
+            let mut turned = vec![0.0; phases];
+            turned[phase] = TAU;
+            let end = at(&turned)?;
+            let largest = start.terms().chain(end.terms()).map(|(_, c)| c.abs()).fold(0.0, f64::max);
+            let mut change = end.clone();
+            change -= &start;
+            if let Some((_, c)) = change.terms().find(|(_, c)| c.abs() > CLOSED * largest) {
+                return Err(Error::NotPeriodic { phase, change: c.abs(), largest });
+            }
+        }
+        Ok(())
     }
 
     /// The Hamiltonian at the times of a grid.
@@ -104,24 +138,31 @@ impl<F: Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync> DrivenHamilton
         self.on(grid)?.compose(&replacements, Some(&Truncation::total(degree)))
     }
 
+    fn harmonics(&self) -> &[usize] {
+        &self.harmonics
+    }
+
     fn between_times(&self, grid: &Grid) -> Result<f64, Error> {
+        self.closes(grid.phases())?;
         let known = self.on(grid)?;
-        let largest = known.terms().map(|(_, c)| c.size()).fold(1.0, f64::max);
+        let rounding = ROUNDING * known.terms().map(|(_, c)| c.size()).fold(0.0, f64::max);
         let mut most = 0.0_f64;
         for number in 1..=BETWEEN {
-            // Multiples of the golden ratio and of its powers are near no times of a grid.
-            let turns = |phase: usize| GOLDEN.powi(phase as i32 + 1) * f64::from(number);
-            let phases: Vec<f64> = (0..grid.phases()).map(|phase| TAU * turns(phase).fract()).collect();
+            let turns = PRIMES.iter().take(grid.phases()).map(|prime| prime.sqrt() * f64::from(number));
+            let phases: Vec<f64> = turns.map(|turns| TAU * turns.fract()).collect();
             let weights = grid.weights(&phases);
+            let seen = Polynomial::from_terms((self.samples)(&phases)?).map(|&c: &f64| Complex::from(c));
             let mut left = known.map(|c| c.weighted(&weights));
-            left -= &Polynomial::from_terms((self.samples)(&phases)?).map(|&c: &f64| Complex::from(c));
-            for (_, c) in left.terms() {
+            left -= &seen;
+            for (monomial, c) in left.terms() {
                 if !c.is_finite() {
                     return Ok(f64::INFINITY);
                 }
-                most = most.max(c.norm());
+                let size = known.coefficient(&monomial).map_or(0.0, Periodic::size);
+                let size = size.max(seen.coefficient(&monomial).map_or(0.0, |c| c.norm()));
+                most = most.max(if size > rounding { c.norm() / size } else { 0.0 });
             }
         }
-        Ok(most / largest)
+        Ok(most)
     }
 }

@@ -8,20 +8,31 @@ use num_complex::Complex;
 use super::grid::Grid;
 use super::row::Periodic;
 use crate::birkhoff::matrix::{Matrix, turned_rows};
+use crate::error::Error;
 
 /// The order of the series; a step times the rates of S and of its harmonics is at most `REACH`, so that the first neglected term is below 1e-17.
 const ORDER: usize = 28;
 const REACH: f64 = 3.0;
 
+/// Most steps over a period: about a second with one pair.
+const MOST_STEPS: usize = 100_000;
+
 /// Φ at the times of a grid of one phase and after the period, 1 at the phase 0. If the rate is negative, the solution runs backwards in time.
-pub(super) fn monodromy(grid: &Grid, second: &Matrix<Periodic>) -> Vec<DMatrix<f64>> {
+///
+/// # Errors
+/// - more than [`MOST_STEPS`] steps: [`Error::PhaseTooSlow`].
+pub(super) fn monodromy(grid: &Grid, second: &Matrix<Periodic>) -> Result<Vec<DMatrix<f64>>, Error> {
     let (n, times, rate) = (second.len(), grid.times(), grid.rates()[0]);
     let moved = turned_rows(second);
     let harmonics: Vec<Vec<Complex<f64>>> = moved.iter().flatten().map(|entry| grid.harmonics(entry)).collect();
     let half = (times / 2) as i64;
-    let largest: f64 = moved.iter().flatten().map(Periodic::size).fold(0.0, f64::max) * n as f64 / rate.abs();
+    let largest = fastest(second) * n as f64 / rate.abs();
     let gap = TAU / times as f64;
-    let parts = (gap * largest.max(half as f64) / REACH).ceil().max(1.0) as usize;
+    let parts = (gap * largest.max(half as f64) / REACH).ceil().max(1.0);
+    if parts * times as f64 > MOST_STEPS as f64 {
+        return Err(Error::PhaseTooSlow { rate, steps: parts * times as f64, bound: MOST_STEPS });
+    }
+    let parts = parts as usize;
     let step = gap / parts as f64;
     let mut course = vec![DMatrix::identity(n, n)];
     let mut last = DMatrix::identity(n, n);
@@ -33,7 +44,18 @@ pub(super) fn monodromy(grid: &Grid, second: &Matrix<Periodic>) -> Vec<DMatrix<f
         }
         course.push(last.clone());
     }
-    course
+    Ok(course)
+}
+
+/// The largest entry of J S in units of the variables in which the second derivatives with respect to q and p of each pair have one size.
+fn fastest(second: &Matrix<Periodic>) -> f64 {
+    let own = |slot: usize| second[slot][slot].size();
+    let unit = |slot: usize| {
+        let unit = (own(slot ^ 1) / own(slot)).powf(0.25);
+        if unit.is_normal() { unit } else { 1.0 }
+    };
+    let entries = second.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, c)| (i, j, c)));
+    entries.map(|(i, j, c)| c.size() * unit(i) * unit(j)).fold(0.0, f64::max)
 }
 
 /// The Taylor coefficients of J S about a phase in powers of a step of the phase, times the step of the time. `steps` are those of the phase and of the time.

@@ -1,17 +1,19 @@
 //! The periodic motion of a driven Hamiltonian.
 //!
 //! ẋ = J ∇H(x, M) has a solution x̄(M). One Newton step for it solves n∂δ − J S δ = r with the residual r and the matrix S of second derivatives along x̄. In the variables w of
-//! Floquet's frame, δ = P w, the harmonics of w are those of P⁻¹ r over i j·n minus an eigenvalue. The method holds for any number of phases; with two or more x̄ and P are
-//! quasi-periodic (À. Haro and R. de la Llave, Discrete Contin. Dyn. Syst. B 6 (2006) 1261).
+//! Floquet's frame, δ = P w, the harmonics of w are those of P⁻¹ r over i j·n minus an eigenvalue. Where the motion of a step has no real frame, the equation is solved at all times
+//! together, so that the multipliers of an error are those of the periodic motion. The method holds for any number of phases; with two or more x̄ and P are quasi-periodic (À. Haro and R. de la Llave, Discrete Contin. Dyn. Syst. B 6 (2006) 1261).
 
+use nalgebra::{DMatrix, DVector};
+use num_complex::Complex;
 use num_traits::Zero;
 
-use super::frame::{REACHED, SLOWEST, SMALL, frame, solved};
+use super::frame::{NOISE, REACHED, SLOWEST, SMALL, fastest, frame, solved};
 use super::grid::Grid;
 use super::hamiltonian::DrivenHamiltonian;
 use super::row::{Periodic, product};
-use super::start::eigenvalues;
-use crate::birkhoff::matrix::{Matrix, symplectic_inverse, turned, unit};
+use super::start::{Frame, eigenvalues};
+use crate::birkhoff::matrix::{Matrix, symplectic_inverse, turned, turned_rows, unit};
 use crate::birkhoff::mode::Mode;
 use crate::error::Error;
 use crate::monomial::Monomial;
@@ -19,8 +21,8 @@ use crate::polynomial::Polynomial;
 
 /// Most Newton steps.
 const STEPS: usize = 40;
-/// A Newton step beyond this has left the range.
-const FAR: f64 = 1e3;
+/// The largest linear system of a step without a frame: some 0.3 s.
+const MOST_ROWS: usize = 1000;
 
 /// A periodic motion and the frame of Floquet about it.
 #[derive(Clone, Debug)]
@@ -36,11 +38,16 @@ pub struct PeriodicMotion {
 }
 
 impl PeriodicMotion {
-    /// The periodic motion that continues the equilibrium 0, and its frame; `known` is that on a coarser grid.
+    /// The periodic motion to which Newton's iteration comes from the equilibrium 0, and its frame; `known` is that on a coarser grid.
     ///
     /// # Errors
-    /// - no convergence: [`Error::NoPeriodicMotion`]; multipliers that have no real frame: [`Error::MultiplierUnsupported`]; the errors of a quadratic form.
-    pub fn new(system: &dyn DrivenHamiltonian, grid: Grid, known: Option<&Self>) -> Result<Self, Error> {
+    /// - no convergence: [`Error::NoPeriodicMotion`]; what `going` returns before a step; multipliers that have no real frame: [`Error::MultiplierUnsupported`]; the errors of a quadratic form.
+    pub fn new(
+        system: &dyn DrivenHamiltonian,
+        grid: Grid,
+        known: Option<&Self>,
+        going: &mut dyn FnMut() -> Result<(), Error>,
+    ) -> Result<Self, Error> {
         let mut origin = vec![Periodic::zero(); 2 * system.pairs()];
         let (mut before, mut kept) = (f64::INFINITY, None);
         if let Some(known) = known {
@@ -49,38 +56,48 @@ impl PeriodicMotion {
             let change = known.change.iter().map(|row| row.iter().map(onto).collect()).collect();
             kept = Some((change, known.modes.clone()));
         }
-        for _ in 0..STEPS {
+        for number in 1..=STEPS {
+            going()?;
             let (slopes, second) = quadratic(system, &grid, &origin)?;
-            let (change, modes) = frame(&grid, &second, kept.take())?;
             let mut left = turned(&slopes);
             for (left, x) in left.iter_mut().zip(&origin) {
                 *left -= &grid.derivative(x);
             }
-            let left: Matrix<Periodic> = left.into_iter().map(|row| vec![row]).collect();
-            let inner = product(&symplectic_inverse(&change), &left);
-            let eigenvalues = modes.iter().flat_map(eigenvalues);
-            let step: Matrix<Periodic> = inner
-                .iter()
-                .zip(eigenvalues)
-                .map(|(row, lambda)| vec![solved(&grid, &row[0], lambda, false)])
-                .collect();
-            let step: Vec<Periodic> = product(&change, &step).into_iter().map(|row| row[0].real_part()).collect();
+            let found = frame(&grid, &second, kept.take());
+            let step = match &found {
+                Ok(known) => step_in_frame(&grid, known, &left),
+                // The frame of a step need not be that of the periodic motion.
+                Err(error) => match step_at_all_times(&grid, &second, &left) {
+                    Some(step) => step,
+                    None => {
+                        let size = |functions: &[Periodic]| functions.iter().map(Periodic::size).fold(0.0, f64::max);
+                        let miss = size(&left) / second.iter().map(|row| size(row)).fold(0.0, f64::max);
+                        let at_rest = miss <= SMALL * size(&origin).max(1.0);
+                        return Err(if at_rest {
+                            error.clone()
+                        } else {
+                            Error::NoPeriodicMotion { miss, steps: number }
+                        });
+                    }
+                },
+            };
             let size = step.iter().map(Periodic::size).fold(0.0, f64::max);
-            if !size.is_finite() || size > FAR {
-                return Err(Error::NoPeriodicMotion { miss: size, steps: STEPS });
+            if !size.is_finite() {
+                return Err(Error::NoPeriodicMotion { miss: size, steps: number });
             }
             origin.iter_mut().zip(&step).for_each(|(x, step)| *x += step);
             let scale = origin.iter().map(Periodic::size).fold(1.0, f64::max);
             let slow = size > before * SLOWEST && size < SMALL * scale;
             if size <= REACHED * scale || slow {
                 let (slopes, second) = quadratic(system, &grid, &origin)?;
-                let (change, modes) = frame(&grid, &second, Some((change, modes)))?;
-                let functions = origin.iter().chain(&slopes).chain(change.iter().flatten());
-                let tails = tails(&grid, functions.chain(second.iter().flatten()));
+                let (change, modes) = frame(&grid, &second, found.ok())?;
+                let mut tails = vec![0.0; grid.phases()];
+                add_tails(&mut tails, &grid, origin.iter().chain(change.iter().flatten()), 1.0);
+                add_tails(&mut tails, &grid, slopes.iter().chain(second.iter().flatten()), fastest(&modes));
                 return Ok(Self { grid, origin, change, modes, tails });
             }
             before = size;
-            kept = Some((change, modes));
+            kept = found.ok();
         }
         Err(Error::NoPeriodicMotion { miss: before, steps: STEPS })
     }
@@ -100,14 +117,52 @@ impl PeriodicMotion {
     }
 }
 
-/// For each phase the largest of the last harmonics of functions, over the size of each function that is above 1.
-fn tails<'a>(grid: &Grid, functions: impl Iterator<Item = &'a Periodic>) -> Vec<f64> {
-    let mut most = vec![0.0_f64; grid.phases()];
-    for function in functions {
-        let size = function.size().max(1.0);
-        most.iter_mut().zip(grid.tails(function)).for_each(|(most, tail)| *most = most.max(tail / size));
+/// The Newton step for a residual in the variables of a frame, where it is a division of each harmonic.
+fn step_in_frame(grid: &Grid, (change, modes): &Frame, left: &[Periodic]) -> Vec<Periodic> {
+    let left: Matrix<Periodic> = left.iter().map(|row| vec![row.clone()]).collect();
+    let inner = product(&symplectic_inverse(change), &left);
+    let rows = inner.iter().zip(modes.iter().flat_map(eigenvalues));
+    let noise = NOISE * fastest(modes);
+    let step: Matrix<Periodic> =
+        rows.map(|(row, lambda)| vec![solved(grid, &row[0], (lambda, noise), false)]).collect();
+    product(change, &step).into_iter().map(|row| row[0].real_part()).collect()
+}
+
+/// The same step without a frame, by one linear system for all times; none beyond [`MOST_ROWS`] and where the system is singular.
+fn step_at_all_times(grid: &Grid, second: &Matrix<Periodic>, left: &[Periodic]) -> Option<Vec<Periodic>> {
+    let (n, times) = (left.len(), grid.times());
+    if n * times > MOST_ROWS {
+        return None;
     }
-    most
+    let row = |variable: usize, time: usize| variable * times + time;
+    let mut matrix = DMatrix::<f64>::zeros(n * times, n * times);
+    for time in 0..times {
+        let spike: Vec<Complex<f64>> = (0..times).map(|at| f64::from(at == time).into()).collect();
+        let derivative = grid.derivative(&Periodic::of(&spike));
+        for variable in 0..n {
+            (0..times).for_each(|at| matrix[(row(variable, at), row(variable, time))] = derivative.at(at).re);
+        }
+    }
+    for (i, entries) in turned_rows(second).iter().enumerate() {
+        for (j, entry) in entries.iter().enumerate() {
+            (0..times).for_each(|time| matrix[(row(i, time), row(j, time))] -= entry.at(time).re);
+        }
+    }
+    let residual = DVector::from_iterator(n * times, left.iter().flat_map(|x| (0..times).map(|time| x.at(time).re)));
+    let step = matrix.lu().solve(&residual)?;
+    let of = |values: &[f64]| {
+        let function = Periodic::of(&values.iter().map(|&x| x.into()).collect::<Vec<_>>());
+        grid.filtered(&function, |at, c| if grid.is_solved(at) { c } else { Complex::zero() }).real_part()
+    };
+    Some(step.as_slice().chunks(times).map(of).collect())
+}
+
+/// The largest so far of the last harmonics of functions, over the size of each function that is above a unit; one for each phase.
+fn add_tails<'a>(tails: &mut [f64], grid: &Grid, functions: impl Iterator<Item = &'a Periodic>, unit: f64) {
+    for function in functions {
+        let size = function.size().max(unit);
+        tails.iter_mut().zip(grid.tails(function)).for_each(|(most, tail)| *most = most.max(tail / size));
+    }
 }
 
 /// A constant plus a linear form.

@@ -89,7 +89,8 @@ impl DrivenNormalForm {
     /// ```
     ///
     /// # Errors
-    /// - those of [`DrivenForm::new`]; a rate that is 0 or not finite: [`Error::DrivenUnsupported`], [`Error::NotFinite`]; order 61: [`Error::OrderTooLarge`].
+    /// - those of [`DrivenForm::new`]; a rate that is 0 or not finite: [`Error::DrivenUnsupported`], [`Error::NotFinite`]; order 61: [`Error::OrderTooLarge`];
+    /// - a smallest divisor of −1 or NaN: [`Error::OutsideInterval`].
     pub fn new(
         hamiltonian: &Polynomial<f64>,
         order: usize,
@@ -99,7 +100,12 @@ impl DrivenNormalForm {
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
         let at = |phases: &[f64]| terms_at(hamiltonian, space, phases);
-        let system = SampledHamiltonian::new(space.degrees_of_freedom(), at);
+        let of = |phase: usize| {
+            let multiples = hamiltonian.terms().map(|(monomial, _)| space.harmonics(monomial)[phase].unsigned_abs());
+            multiples.max().unwrap_or(0) as usize
+        };
+        let system = SampledHamiltonian::new(space.degrees_of_freedom(), at)
+            .with_harmonics((0..space.driven().len()).map(of).collect());
         let form = Self::of(&system, order, space, phases, smallest_divisor, progress)?;
         Ok(Self { hamiltonian: hamiltonian.clone(), ..form })
     }
@@ -118,6 +124,10 @@ impl DrivenNormalForm {
     ) -> Result<Self, Error> {
         if order > MAX_DRIVEN_ORDER {
             return Err(Error::OrderTooLarge { order, bound: MAX_DRIVEN_ORDER });
+        }
+        if !(0.0..=1.0).contains(&smallest_divisor) {
+            let (argument, value) = ("smallest_divisor", smallest_divisor);
+            return Err(Error::OutsideInterval { argument, value, lower: 0.0, upper: 1.0 });
         }
         check_driven(phases, space)?;
         let (rates, starts): (Vec<f64>, Vec<f64>) = phases.iter().copied().unzip();

@@ -64,7 +64,7 @@ pub(super) fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Fra
     if grid.phases() == 0 {
         return still(second);
     }
-    let (rate, course) = (grid.rates()[0], monodromy(grid, second));
+    let (rate, course) = (grid.rates()[0], monodromy(grid, second)?);
     let period = 2.0 * PI / rate;
     let last = &course[grid.times()];
     let one = DMatrix::<f64>::identity(n, n);

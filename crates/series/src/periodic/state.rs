@@ -15,6 +15,8 @@ use crate::monomial::Monomial;
 /// Most steps to normal coordinates, and the smallest factor by which a step that counts comes nearer.
 const STEPS: usize = 80;
 const SLOWEST: f64 = 0.9;
+/// An image that misses its state by more than this part of the distance from the periodic motion is beyond the range of the series.
+const LOST: f64 = 0.01;
 
 /// Terms of the transformation below this part of the largest variable do not count.
 const NEGLIGIBLE: f64 = 1e-19;
@@ -100,18 +102,24 @@ impl FormAtPhases<'_> {
         }
     }
 
-    /// The real normal variables of a state, whose image is the state to rounding, by iteration; those of the best step beyond the range of the series.
+    /// The real normal variables of a state, whose image is the state to rounding, by iteration.
+    ///
+    /// # Errors
+    /// - another number of variables: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`]; a state of which no image keeps two digits: [`Error::BeyondSeries`].
+    pub fn to_normal(&self, state: &[f64]) -> Result<Vec<f64>, Error> {
+        let (normal, miss) = self.to_normal_by_orders(state, &[self.form.order()])?.remove(0);
+        let distance = state.iter().zip(&self.origin).fold(0.0_f64, |most, (x, origin)| most.max((x - origin).abs()));
+        if miss > LOST * distance.max(f64::EPSILON) {
+            return Err(Error::BeyondSeries { miss, distance });
+        }
+        Ok(normal)
+    }
+
+    /// The same by the terms to each of some orders, which are those of the forms of these orders, and how far the image is from the state. Beyond the range of the series they
+    /// are the variables of the best step.
     ///
     /// # Errors
     /// - another number of variables: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`].
-    pub fn to_normal(&self, state: &[f64]) -> Result<Vec<f64>, Error> {
-        Ok(self.to_normal_by_orders(state, &[self.form.order()])?.remove(0).0)
-    }
-
-    /// The same by the terms to each of some orders, which are those of the forms of these orders, and how far the image is from the state.
-    ///
-    /// # Errors
-    /// - Those of [`to_normal`](Self::to_normal).
     pub fn to_normal_by_orders(&self, state: &[f64], orders: &[usize]) -> Result<Vec<(Vec<f64>, f64)>, Error> {
         check("state", state, self.origin.len())?;
         let modes = &self.form.motion.modes;

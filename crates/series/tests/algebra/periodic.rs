@@ -289,3 +289,36 @@ fn a_harmonic_that_is_rounding_has_no_small_divisor() -> Result<(), Error> {
     assert!(linear == Some(&1.0) && square.is_some_and(|c| (c - 0.375).abs() < 1e-14), "{actions:?}");
     Ok(())
 }
+
+#[test]
+fn newtons_iteration_passes_motions_that_have_no_real_frame() -> Result<(), Error> {
+    // Nonlinear Mathieu equation with a force. The equilibrium lies in the first tongue. Expected: fixed points of the map of a period and its multipliers, by SciPy's DOP853 and fsolve.
+    let forced = |force: f64| {
+        form(&format!("(p^2 + 0.25*x^2)/2 + 0.1*x^4 - (0.1*x^2 + {force}*x)*cos(M)"), &[("x", "p")], &[1.0], 0)
+    };
+    let stable = forced(0.3)?;
+    assert!((stable.periodic(&[0.0])[0] + 0.513_282_376).abs() < 1e-8, "{:?}", stable.periodic(&[0.0]));
+    assert!(((TAU * omega(&stable)).cos() + 0.821_554_63).abs() < 1e-7, "{}", omega(&stable));
+    // The multipliers of an error are those of the periodic motion, not those of a step on the way to it.
+    let Err(Error::MultiplierUnsupported { mut multipliers, .. }) = forced(0.2) else { panic!("{:?}", forced(0.2)) };
+    multipliers.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let far = multipliers.iter().zip([-1.397_326_27, -0.715_652_47]).map(|([re, im], known)| (re - known).hypot(*im));
+    assert!(multipliers.len() == 2 && far.fold(0.0, f64::max) < 1e-6, "{multipliers:?}");
+    // Frames exist at the start and at the end, and not between them.
+    let strong = form("(p^2 + x^2)/2 + x^4/4 - 3*x*cos(M)", &[("x", "p")], &[1.7], 0)?;
+    assert!((strong.periodic(&[0.0])[0] - 2.173_003).abs() < 1e-6, "{:?}", strong.periodic(&[0.0]));
+    Ok(())
+}
+
+#[test]
+fn a_state_beyond_the_range_of_the_series_has_no_normal_variables() -> Result<(), Error> {
+    let form = form("(p^2 + x^2)/2 + x^4/4 - 0.05*x*cos(M)", &[("x", "p")], &[1.7], 6)?;
+    assert!(form.at(&[0.0]).to_normal(&[0.3, 0.0]).is_ok());
+    let beyond = form.at(&[0.0]).to_normal(&[3.0, 0.0]);
+    assert!(
+        matches!(beyond, Err(Error::BeyondSeries { miss, distance }) if miss > 0.03 && (distance - 3.026).abs() < 0.01),
+        "{beyond:?}"
+    );
+    assert!(matches!(form.trajectory(&[3.0, 0.0], &[0.0], &[0.0]), Err(Error::BeyondSeries { .. })));
+    Ok(())
+}
