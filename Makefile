@@ -9,7 +9,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost libration-reach bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
+.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost libration-reach bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -170,7 +170,7 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes
 	$(BIN)/python tests/stress/bounds.py
 
-rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-partials rivals-messages  ## the tables of ratios, in out/ too
+rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-driven rivals-partials rivals-messages  ## the tables of ratios, in out/ too
 
 rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine
 	$(RIVALS)/bin/python benches/rivals/normal_form.py --data docs/data/rivals-normal-form.csv
@@ -191,6 +191,9 @@ rivals-integration: $(RIVALS)/propagation $(RIVALS)/installed  ## the integrated
 
 rivals-libration: $(RIVALS)/propagation $(RIVALS)/installed  ## librations against the integration and heyoka: docs/data/libration-rivals.csv; a quarter of an hour
 	$(RIVALS)/bin/python benches/rivals/libration.py --output docs/data/libration-rivals.csv
+
+rivals-driven: $(RIVALS)/propagation $(RIVALS)/installed  ## normal forms with a driven phase against heyoka
+	$(RIVALS)/bin/python benches/rivals/driven.py --output docs/data/rivals-driven.csv
 
 rivals-partials: $(RIVALS)/propagation $(RIVALS)/installed  ## derivatives against heyoka's variational equations
 	$(RIVALS)/bin/python benches/rivals/partials.py --output docs/data/rivals-partials.csv

@@ -8,6 +8,7 @@ compilation; "form" is the time of the normal form, "motion" that of the state's
 """
 
 import argparse
+import functools
 import math
 import os
 import sys
@@ -114,28 +115,33 @@ def integrated(field, start, times, tolerance, kind=float):
     return work
 
 
+def measured(name, periods):
+    """The rows of a case."""
+    rate, form_of, field, start = CASES[name]()
+    times = np.linspace(0, 2 * math.pi / rate * periods, SAMPLES)
+    exact = integrated(field, start, times, 1e-19, np.longdouble)()
+
+    def row(engine, setting, found, *costs):
+        error = float(np.abs(found - exact).max())
+        print(f"{name:8s} {engine:8s} {setting:6s} error {error:.1e}  " + "  ".join(f"{1e3 * cost:9.3f} ms" for cost in costs), flush=True)
+        return [name, engine, setting, f"{error:.2e}", *(f"{cost:.5g}" for cost in costs), *[None] * (2 - len(costs))]
+
+    for order in ORDERS:
+        whole, form = seconds(functools.partial(form_of, order))
+        least, found = seconds(functools.partial(form.trajectory, start, times))
+        yield row("form", str(order), found, least, whole)
+    for tolerance in TOLERANCES:
+        least, found = seconds(integrated(field, start, times, tolerance))
+        yield row("heyoka", f"{tolerance:.0e}", found, least)
+
+
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--periods", type=float, default=1000)
     options.add_argument("--output", type=Path)
-    asked, rows = options.parse_args(), []
-    for name, case in CASES.items():
-        rate, form_of, field, start = case()
-        times = np.linspace(0, 2 * math.pi / rate * asked.periods, SAMPLES)
-        exact = integrated(field, start, times, 1e-19, np.longdouble)()
-
-        def told(engine, setting, least, found):
-            error = float(np.abs(found - exact).max())  # noqa: B023
-            print(f"{name:8s} {engine:8s} {setting:6s} error {error:.1e}  " + "  ".join(f"{1e3 * value:9.3f} ms" for value in least), flush=True)  # noqa: B023
-            rows.append([name, engine, setting, f"{error:.2e}", *(f"{value:.5g}" for value in least)])  # noqa: B023
-
-        for order in ORDERS:
-            whole, form = seconds(lambda order=order: form_of(order))
-            least, found = seconds(lambda form=form: form.trajectory(start, times))
-            told("form", str(order), (least, whole), found)
-        for tolerance in TOLERANCES:
-            told("heyoka", f"{tolerance:.0e}", *(lambda pair: ((pair[0],), pair[1]))(seconds(integrated(field, start, times, tolerance))))
-    write(asked.output, ["case", "engine", "setting", "error", "motion", "form"], [row + [None] * (6 - len(row)) for row in rows])
+    asked = options.parse_args()
+    rows = [row for name in CASES for row in measured(name, asked.periods)]
+    write(asked.output, ["case", "engine", "setting", "error", "motion", "form"], rows)
     return 0
 
 

@@ -115,7 +115,7 @@ def test_three_pairs_with_two_phases_and_a_saddle_move_as_an_integration():
         ]
 
     assert form.kinds == ("elliptic", "elliptic", "hyperbolic")
-    start, times = form.periodic([0.2, 0.5]) + [0.02, 0.01, -0.02, 0.015, 1e-4, -1e-4], np.linspace(0, 8, 9)
+    start, times = form.periodic([0.2, 0.5]) + np.array([0.02, 0.01, -0.02, 0.015, 1e-4, -1e-4]), np.linspace(0, 8, 9)
     assert form.trajectory(start, times) == pytest.approx(integrated(rates, start, times), abs=1e-6)
 
 
@@ -185,7 +185,7 @@ def test_bad_input_names_its_argument():
         Driven([])
     assert Driven(1.0, names="N").names == ["N"]
     with pytest.raises(andoyer.TheoryError, match="100000"):
-        normalize("(p^2 + x^2)/2 + x*cos(M)/10", 0, PAIR, driven={"M": 1e-300})
+        normalize("(p^2 + x^2)/2 + x^2*cos(M)/10", 0, PAIR, driven={"M": 1e-300})
     with pytest.raises(andoyer.TheoryError, match="20000"):
         normalize("(p^2 + x^2)/2 + x*cos(90*a)/10 + x*cos(90*b)/10", 0, PAIR, driven={"a": 0.0213, "b": 0.0311})
     with pytest.raises(andoyer.InputError, match="state"):

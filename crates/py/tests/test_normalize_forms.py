@@ -126,7 +126,10 @@ def test_function_or_root_of_sympy_is_named_with_its_remedy():
     taylor = "expand it as a Taylor polynomial, for a normal form of order N to degree N \\+ 2"
     for function in (sympy.cos(q), 3 * q * sympy.exp(q + p), sympy.Abs(q), (1 + sympy.sin(q)) ** 2):
         name = next(part for part in sympy.preorder_traversal(function) if part.is_Function).func
-        with pytest.raises(andoyer.InputError, match=f'^hamiltonian is no polynomial: .*; "{name}" is a function, and only polynomials are read, and cosines and sines of named driven phases: {taylor}$'):
+        with pytest.raises(
+            andoyer.InputError,
+            match=f'^hamiltonian is no polynomial: .*; "{name}" is a function, and only polynomials are read, and cosines and sines of named driven phases: {taylor}$',
+        ):
             normalize(oscillator + function, 2, [(q, p)])
     for power in (1 / (1 + q), sympy.sqrt(1 + q), q**a, 2**q):
         with pytest.raises(andoyer.InputError, match="; expand .* as a Taylor polynomial, for a normal form of order N to degree N \\+ 2$"):

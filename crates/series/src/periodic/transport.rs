@@ -13,6 +13,9 @@ use crate::triangle::{LieTransform, Progress};
 
 type Complexes = Polynomial<Complex<f64>>;
 
+/// Harmonics below this part of the largest normal variable are rounding.
+const NEGLIGIBLE: f64 = 1e-18;
+
 impl DrivenForm {
     /// A function f of the old variables q₁, p₁, … at phases \[rad\], in the real normal variables, to the degree of the order more than the lowest of f − f(x̄).
     ///
@@ -104,21 +107,34 @@ impl DrivenForm {
             let at = |&time: &f64| self.at(&later(time)).from_normal(&self.advanced(&normal, &rates, time));
             return times.iter().map(at).collect();
         }
-        let harmonics = self.fourier(&actions, 0.0)?;
+        let least = NEGLIGIBLE * actions.iter().fold(0.0_f64, |most, action| most.max((2.0 * action).sqrt()));
+        let harmonics = self.fourier(&actions, least)?;
         let angles = self.angles_of(&normal);
+        let most = |slot: usize| harmonics.iter().map(|one| one.multiples[slot].unsigned_abs()).max().unwrap_or(0);
+        let highest: Vec<u64> = (0..angles.len() + phases.len()).map(most).collect();
         let at = |&time: &f64| {
             let mut sums = vec![0.0; state.len()];
             let moved: Vec<f64> = angles.iter().zip(&rates).map(|(angle, rate)| angle + rate * time).collect();
             let all = [moved, later(time)].concat();
+            let powers: Vec<Vec<Complex<f64>>> =
+                all.iter().zip(&highest).map(|(&angle, &most)| powers(Complex::cis(angle), most)).collect();
             for harmonic in &harmonics {
-                let angle: f64 = harmonic.multiples.iter().zip(&all).map(|(&k, angle)| k as f64 * angle).sum();
-                let turn = Complex::cis(angle);
+                let mut turn = Complex::new(1.0, 0.0);
+                for (&k, powers) in harmonic.multiples.iter().zip(&powers).filter(|(k, _)| **k != 0) {
+                    let power = powers[k.unsigned_abs() as usize];
+                    turn *= if k < 0 { power.conj() } else { power };
+                }
                 sums.iter_mut().zip(&harmonic.amplitudes).for_each(|(sum, c)| *sum += (c * turn).re);
             }
             sums
         };
         Ok(times.iter().map(at).collect())
     }
+}
+
+/// 1, z, z², … to a power.
+fn powers(z: Complex<f64>, most: u64) -> Vec<Complex<f64>> {
+    std::iter::successors(Some(Complex::new(1.0, 0.0)), |power| Some(power * z)).take(most as usize + 1).collect()
 }
 
 /// The real part of a function after a linear change.
