@@ -193,7 +193,7 @@ rivals-libration: $(RIVALS)/propagation $(RIVALS)/installed  ## librations again
 	$(RIVALS)/bin/python benches/rivals/libration.py --output docs/data/libration-rivals.csv
 
 rivals-driven: $(RIVALS)/propagation $(RIVALS)/installed  ## normal forms with a driven phase against heyoka
-	$(RIVALS)/bin/python benches/rivals/driven.py --output docs/data/rivals-driven.csv
+	$(RIVALS)/bin/python benches/rivals/driven.py
 
 rivals-partials: $(RIVALS)/propagation $(RIVALS)/installed  ## derivatives against heyoka's variational equations
 	$(RIVALS)/bin/python benches/rivals/partials.py --output docs/data/rivals-partials.csv

@@ -28,7 +28,7 @@ TARGETS = {
     "scenes": ["scenes.csv", "ensemble.csv"],
     "libration-cost": ["libration-cost.csv"],
     "rivals-libration": ["libration-rivals.csv"],
-    **{f"rivals-{name}": [f"rivals-{name}.csv"] for name in ("propagation", "gradient", "integration", "driven", "partials", "normal-form", "products")},
+    **{f"rivals-{name}": [f"rivals-{name}.csv"] for name in ("propagation", "gradient", "integration", "partials", "normal-form", "products")},
     "light-curves": ["light-curves.csv"],
     "gravity": [f"gravity-{name}.csv" for name in ("cases", "levels", "bounds", "climb", "table", "spans")] + ["averaged-bodies.csv"],
     "stress": ["stress.csv"],

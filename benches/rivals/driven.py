@@ -1,6 +1,6 @@
 """Compare normal forms with a driven phase with heyoka's integration: run time against error, by order and by tolerance.
 
-    python benches/rivals/driven.py [--periods 1000] [--output docs/data/rivals-driven.csv]
+    python benches/rivals/driven.py [--periods 1000] [--output FILE.csv]
 
 Three systems: a driven Duffing oscillator, a quartic oscillator in a lattice (Mathieu's equation with a cubic force), L4 of the elliptic restricted problem of the Earth and the Moon. A motion is given at
 200 times over so many periods of the drive. The reference is heyoka in extended precision (80 bits, tolerance 1e-19). Times are CPU seconds, the least of three rounds. heyoka's time excludes its
