@@ -12,7 +12,7 @@
 //! states go far away, they are brought nearer to the motion, in the same direction, and the scale changes, as for Lyapunov exponents. The four are integrated
 //! at once, in lanes. If an enlarged displacement grows beyond 0.1 rad, the displacements themselves are integrated, with shorter steps.
 //!
-//! The interpolation error of tables is measured with two more integrations, by the neighbouring polynomials ([`Interpolated`]).
+//! The interpolation error of tables is measured with two more integrations, by the neighbouring polynomials ([`ReinterpolatedSteps`]).
 
 use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
@@ -170,7 +170,7 @@ impl Task for MeasuredSteps<'_> {
 
 /// The steps of a motion in one direction, and equations with other interpolations of its tables.
 #[derive(Clone, Copy)]
-pub(super) struct Interpolated<'a> {
+pub(super) struct ReinterpolatedSteps<'a> {
     pub(super) equations: &'a Equations<4>,
     pub(super) precision: Precision,
     pub(super) steps: &'a [Step],
@@ -178,7 +178,7 @@ pub(super) struct Interpolated<'a> {
     pub(super) stop: &'a AtomicBool,
 }
 
-impl Task for Interpolated<'_> {
+impl Task for ReinterpolatedSteps<'_> {
     /// The largest angle so far between the two motions, at the times of the error bound.
     type Output = Result<Profile, Error>;
 

@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::disturber::Disturber;
 use super::expansion::{Equations, Workspace};
 use super::linear::Linear;
+use super::path_series::PathSeries;
 use super::series::{ROWS, Series, StateLanes, add_product, add_scaled};
 use crate::input::scene::Scene;
 use crate::numerics::scaling::scaled;
@@ -91,7 +91,7 @@ impl<'a> ColumnBlock<'a> {
                     }
                 }
                 ForcedColumn::Element(body, element) => {
-                    let Disturber::Conic(conic) = &equations.bodies[*body] else { continue };
+                    let PathSeries::Conic(conic) = &equations.bodies[*body] else { continue };
                     let series = match &elements {
                         Some((of, series)) if of == body => series,
                         _ => &elements.insert((*body, conic.by_elements(simd.four(), time.0, order))).1,

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::disturber::Disturber;
+use super::path_series::PathSeries;
 use super::series::{Coefficients, ROWS, Row, Series, StateLanes, ZERO, add_product, add_scaled, largest};
 use super::torques::{PolynomialSeries, Torques};
 use crate::input::scene::Scene;
@@ -26,7 +26,7 @@ use crate::simd::instruction_set::{InstructionSet, Task};
 pub(super) struct Equations<const W: usize> {
     /// (I3 − I2)/I1 and so on.
     pub(super) factors: StateLanes<W>,
-    pub(super) bodies: Vec<Disturber>,
+    pub(super) bodies: Vec<PathSeries>,
     /// Factor of the torque of each body: 1, and next to 1 for a state with displaced constants.
     pub(super) strengths: Vec<StateLanes<W>>,
     /// The torques beside the gravity gradient, and their factor in each state.
@@ -41,7 +41,7 @@ impl Equations<4> {
         let [a, b, c] = scene.body().moments();
         let epoch = scene.state().epoch;
         let bodies: Vec<_> =
-            scene.asked_disturbing().iter().map(|body| Disturber::new(body, epoch, exponent)).collect();
+            scene.asked_disturbing().iter().map(|body| PathSeries::new(body, epoch, exponent)).collect();
         let strengths = vec![[1.0; 4]; bodies.len()];
         let factors = [(c - b) / a, (a - c) / b, (b - a) / c, 0.0];
         let torques = Torques::new(scene, exponent, false).map(Arc::new);
@@ -92,7 +92,7 @@ impl Equations<4> {
 
 impl<const W: usize> Equations<W> {
     /// The bodies whose gravity gradients act, and those that are sources of other torques.
-    pub(super) fn paths(&self) -> impl Iterator<Item = &Disturber> {
+    pub(super) fn paths(&self) -> impl Iterator<Item = &PathSeries> {
         self.bodies.iter().chain(self.torques.iter().flat_map(|torques| torques.paths()))
     }
 

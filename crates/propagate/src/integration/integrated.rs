@@ -6,10 +6,10 @@ use std::sync::atomic::AtomicBool;
 use andoyer_double::two_sum;
 use pulp::Arch;
 
-use super::bound::{FLOOR, INPUT, Interpolated, MeasuredSteps, Profile, SAFETY, with_interpolation};
-use super::disturber::Disturber;
+use super::bound::{FLOOR, INPUT, MeasuredSteps, Profile, ReinterpolatedSteps, SAFETY, with_interpolation};
 use super::expansion::Equations;
 use super::integrator::{KeptSteps, Precision, ROUNDING, Runner, Side, Step};
+use super::path_series::PathSeries;
 use super::series::{Row, largest};
 use super::torques::{Torques, falls};
 use crate::error::Error;
@@ -233,7 +233,7 @@ impl Problem {
 
     /// Whether a disturbing body has a table.
     fn tabulated(&self) -> bool {
-        self.equations.paths().any(|body| matches!(body, Disturber::Tabulated(_)))
+        self.equations.paths().any(|body| matches!(body, PathSeries::Tabulated(_)))
     }
 
     /// Radians of the fastest rate over the longer side.
@@ -364,7 +364,7 @@ impl Problem {
     ) -> Result<[Profile; 2], Error> {
         let departure = |earlier: bool| {
             let equations = &self.equations.neighbouring(earlier);
-            dispatch_few(Arch::new(), Interpolated { equations, precision, steps, backward, stop })
+            dispatch_few(Arch::new(), ReinterpolatedSteps { equations, precision, steps, backward, stop })
         };
         Ok([departure(true)?, departure(false)?])
     }

@@ -6,8 +6,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::disturber::Disturber;
 use super::interpolation::Table;
+use super::path_series::PathSeries;
 use super::series::{ROWS, Scalars, Series, ZERO, product};
 use crate::input::scene::Scene;
 use crate::input::torque::{PolynomialTorque, SourcePath, Torque, TorqueSource};
@@ -49,8 +49,8 @@ struct Recipe {
 /// A source: the unit vector to it, and (r₀/r)^p.
 #[derive(Clone, Debug)]
 struct SourceSeries {
-    direction: Result<Disturber, [f64; 3]>,
-    fall: Option<Disturber>,
+    direction: Result<PathSeries, [f64; 3]>,
+    fall: Option<PathSeries>,
 }
 
 /// The series of one polynomial torque about the start of a step.
@@ -117,7 +117,7 @@ impl Torques {
     }
 
     /// The bodies and tables of the sources.
-    pub(super) fn paths(&self) -> impl Iterator<Item = &Disturber> {
+    pub(super) fn paths(&self) -> impl Iterator<Item = &PathSeries> {
         self.polynomials.iter().flat_map(|recipe| &recipe.sources).filter_map(|source| source.direction.as_ref().ok())
     }
 
@@ -202,8 +202,8 @@ impl SourceSeries {
     fn new(source: &TorqueSource, at: (f64, i32)) -> Self {
         let (power, reference) = source.distance_power();
         let path = |strength: f64, power: f64| match source.path() {
-            SourcePath::Orbit(orbit) => Ok(Disturber::of_orbit(orbit, at, (strength, power))),
-            SourcePath::Tabulated(table) => Ok(Disturber::of_table(table, at, (strength, power))),
+            SourcePath::Orbit(orbit) => Ok(PathSeries::of_orbit(orbit, at, (strength, power))),
+            SourcePath::Tabulated(table) => Ok(PathSeries::of_table(table, at, (strength, power))),
             SourcePath::Direction(vector) => {
                 let vector = Vector3::from(*vector);
                 Err((vector / vector.amax()).normalize().into())

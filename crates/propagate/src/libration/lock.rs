@@ -12,6 +12,7 @@ use crate::motion::plan::in_words;
 use crate::numerics::phase::Phase;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
+use crate::orbit::hansen::hansen;
 
 /// Largest number of rotations in two orbits.
 const MOST_IN_TWO: i32 = 8;
@@ -93,13 +94,15 @@ impl Lock {
     ) -> Result<Self, String> {
         let precession = PlaneMotion { phase_rate: 0.0, spin: 0.0, sideways: 0.0, obliquity: 0.0, argument: None };
         let attraction = orbit.strength() / orbit.mean_motion().powi(2);
-        let mut shape = LockedShape { moments, eccentricity: orbit.eccentricity(), attraction, twice, precession };
-        let torque = shape.hansen(twice)[1].abs();
+        let eccentricity = orbit.eccentricity();
+        let [_, resonant, _] = hansen(eccentricity, twice.unsigned_abs() as usize);
+        let mut shape = LockedShape { moments, eccentricity, attraction, twice, resonant, precession };
+        let torque = resonant.abs();
         if torque < NO_TORQUE {
             return Err(format!("the resonance {} has no torque on this orbit", in_words(twice)));
         }
         let others = moved_by_others(scene, others / (orbit.strength() * torque), orbit.mean_motion())?;
-        shape.precession = precession_of(scene, orbit, &shape, body);
+        shape.precession = precession_of(scene, orbit, &shape, body)?;
         Ok(Self { others, ..Self::about(scene, orbit, shape, body)? })
     }
 
@@ -202,8 +205,13 @@ fn variables(shape: &LockedShape, seen: UnitQuaternion<f64>, rates: Vector3<f64>
     [psi, p_psi, theta, cos_phi * momentum.y - sin_phi * momentum.z, phi, momentum.x]
 }
 
-/// What node and pericentre add to the equations: axis 3 of S is that of the nearest stable Cassini state.
-fn precession_of(scene: &Scene, orbit: &Orbit, shape: &LockedShape, body: UnitQuaternion<f64>) -> PlaneMotion {
+/// What node and pericentre add to the equations: axis 3 of S is that of the nearest stable Cassini state, or the normal of an orbit whose node stands still.
+fn precession_of(
+    scene: &Scene,
+    orbit: &Orbit,
+    shape: &LockedShape,
+    body: UnitQuaternion<f64>,
+) -> Result<PlaneMotion, String> {
     let (n, resonance, inclination) = (orbit.mean_motion(), f64::from(shape.twice) / 2.0, orbit.elements()[3]);
     let [node_rate, pericentre_rate] = orbit.rates();
     let phase_rate = resonance + pericentre_rate / n;
@@ -214,23 +222,23 @@ fn precession_of(scene: &Scene, orbit: &Orbit, shape: &LockedShape, body: UnitQu
     let pole =
         about(2, node).inverse() * scene.state().attitude * axis * scene.state().angular_velocity.dot(&axis).signum();
     let near = |state: &CassiniState| (about(0, inclination + state.obliquity) * Vector3::z()).dot(&pole);
-    let states = if inclination.sin() == 0.0 {
+    let states = if inclination.sin() == 0.0 || node_rate == 0.0 {
         Vec::new()
     } else {
-        cassini_states(scene.body(), orbit, fast).unwrap_or_default()
+        cassini_states(scene.body(), orbit, fast).map_err(|error| format!("it has no Cassini state: {error}"))?
     };
     let states = states.into_iter().filter(|state| state.stable);
     let obliquity = states.max_by(|a, b| near(a).total_cmp(&near(b))).map_or(0.0, |state| state.obliquity);
     let (sine, cosine) =
         if inclination.sin() == 0.0 { (0.0, inclination.cos()) } else { (inclination + obliquity).sin_cos() };
     let across = if shape.is_across() { FRAC_PI_2 } else { 0.0 };
-    PlaneMotion {
+    Ok(PlaneMotion {
         phase_rate,
         spin: phase_rate + node_rate / n * cosine,
         sideways: node_rate / n * sine,
         obliquity,
         argument: (node_rate != 0.0 && pericentre_rate == 0.0).then_some(argument + across),
-    }
+    })
 }
 
 /// The rotation by an angle about an axis.

@@ -1,7 +1,5 @@
 //! The equations of a locked rotation: what does not depend on the state of the body.
 
-use crate::orbit::hansen::hansen;
-
 /// The equations of a locked rotation. The unit of time is 1/n, and that of the moments is the largest one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LockedShape {
@@ -12,6 +10,8 @@ pub(crate) struct LockedShape {
     pub(crate) attraction: f64,
     /// 2r: rotations in two orbits.
     pub(crate) twice: i32,
+    /// Hansen's coefficient X_{2r} (−3, 2) of the eccentricity.
+    pub(crate) resonant: f64,
     pub(crate) precession: PlaneMotion,
 }
 
@@ -44,21 +44,15 @@ enum Phases {
 }
 
 impl LockedShape {
-    /// Hansen's coefficients (−3, 0) and (−3, 2) with the number k.
-    pub(crate) fn hansen(&self, k: i32) -> [f64; 2] {
-        let [constant, forward, backward] = hansen(self.eccentricity, k.unsigned_abs() as usize);
-        [constant, if k < 0 { backward } else { forward }]
-    }
-
     /// ω_ψ², the square of the frequency of a small libration in longitude in units of n².
     pub(crate) fn swing_rate_squared(&self) -> f64 {
         let [a, b, _] = self.moments;
-        3.0 * self.attraction * (b - a) * self.hansen(self.twice)[1].abs()
+        3.0 * self.attraction * (b - a) * self.resonant.abs()
     }
 
     /// Whether the long axis is at right angles to the direction that follows the disturbing body: where Hansen's coefficient of the resonance is negative.
     pub(crate) fn is_across(&self) -> bool {
-        self.hansen(self.twice)[1] < 0.0
+        self.resonant < 0.0
     }
 
     /// Whether the equations depend on α.

@@ -1,4 +1,4 @@
-//! A disturbing body of an integration: the series of r̃ = √(3μ) ρ^(−5/2) r about a time, whose products with itself are the gravity gradient's torque;
+//! The path of a disturbing body or of a source as a series: that of r̃ = √(3μ) ρ^(−5/2) r about a time, whose products with itself are the gravity gradient's torque;
 //! for the source of another torque the power of ρ is that torque's. It comes from an orbit
 //! ([`super::conic`]) or from a table ([`super::interpolation`]).
 
@@ -14,14 +14,14 @@ use crate::orbit::table::TabulatedOrbit;
 use crate::simd::instruction_set::InstructionSet;
 use crate::torque::strength;
 
-/// A disturbing body with its times and rates in the unit of the integration.
+/// The path of a body, with times and rates in the unit of the integration.
 #[derive(Clone, Debug)]
-pub(super) enum Disturber {
+pub(super) enum PathSeries {
     Conic(Box<Conic>),
     Tabulated(Box<Table>),
 }
 
-impl Disturber {
+impl PathSeries {
     /// From the epoch of the scene and the exponent of the unit of rates.
     pub(super) fn new(body: &DisturbingBody, epoch: f64, exponent: i32) -> Self {
         match body {
@@ -37,12 +37,12 @@ impl Disturber {
         }
     }
 
-    /// A body on an orbit whose series is a factor times a power of the distance in semi-major axes times the position.
+    /// A path on an orbit whose series is a factor times a power of the distance in semi-major axes times the position.
     pub(super) fn of_orbit(orbit: &Orbit, (epoch, exponent): (f64, i32), factor: (f64, f64)) -> Self {
         Self::Conic(Box::new(Conic::new(orbit, (epoch, exponent), factor)))
     }
 
-    /// A body with a table whose series is a factor times a power of the distance times the position, both in units of [`Table::length`].
+    /// A path by a table whose series is a factor times a power of the distance times the position, both in units of [`Table::length`].
     pub(super) fn of_table(table: &Arc<TabulatedOrbit>, (epoch, exponent): (f64, i32), factor: (f64, f64)) -> Self {
         Self::Tabulated(Box::new(Table::new(table, (epoch, exponent), factor)))
     }
