@@ -19,6 +19,8 @@ const STEP: f64 = 1e-100;
 const LOW: i64 = 2;
 /// A harmonic moves a mode if its part in the mode is more than this fraction of its amplitudes. The rest is rounding.
 const PART: f64 = 1e-9;
+/// Turns by which two phases may differ and be one: rounding.
+const SAME: f64 = 1e-9;
 /// A smaller divisor than that of the terms that turn fast in a mode.
 const FAST: f64 = 0.5;
 
@@ -27,6 +29,8 @@ const FAST: f64 = 0.5;
 pub(super) fn residual(form: &DrivenForm, lock: &Lock, course: &FourierMotion, longest: f64) -> f64 {
     let slowest = course.frequencies.iter().fold(1.0_f64, |least, rate| least.min(rate.abs()));
     let (mut slow, mut fast, mut seen) = ([0.0_f64; 3], [0.0_f64; 3], [[0.0_f64; 3]; 3]);
+    // The frames at the times of an orbit.
+    let mut frames: [Option<TimedFrame>; TIMES] = std::array::from_fn(|_| None);
     for orbit in 0..ORBITS {
         let start = TAU * (orbit as f64 / (slowest * ORBITS as f64)).round();
         let mut means = [Complex::default(); 3];
@@ -37,7 +41,10 @@ pub(super) fn residual(form: &DrivenForm, lock: &Lock, course: &FourierMotion, l
             if left.iter().any(|x| !x.is_finite()) {
                 return f64::INFINITY;
             }
-            let [change, inverse] = form.frame(&lock.shape.driven(course.orbit_phases(elapsed)));
+            let phases = lock.shape.driven(course.orbit_phases(elapsed));
+            let known = frames[k].take().filter(|known| known.is_at(&phases));
+            let frame = known.unwrap_or_else(|| TimedFrame { matrices: form.frame(&phases), phases });
+            let [change, inverse] = &frames[k].insert(frame).matrices;
             for (mode, mean) in means.iter_mut().enumerate() {
                 let left: Complex<f64> = inverse[2 * mode + 1].iter().zip(left).map(|(a, b)| a * b).sum();
                 fast[mode] = fast[mode].max(left.norm());
@@ -54,6 +61,20 @@ pub(super) fn residual(form: &DrivenForm, lock: &Lock, course: &FourierMotion, l
     let growth = |mode: usize| longest.min(divisor(course, &inverse[2 * mode + 1], mode).recip());
     let error = |mode: usize| slow[mode] * growth(mode) + fast[mode] / FAST;
     seen.iter().map(|angle| (0..3).map(|mode| error(mode) * angle[mode]).sum::<f64>()).sum()
+}
+
+/// P and P⁻¹ at phases.
+struct TimedFrame {
+    phases: Vec<f64>,
+    matrices: [Vec<Vec<Complex<f64>>>; 2],
+}
+
+impl TimedFrame {
+    /// Whether other phases differ from these by whole turns, so that the frame is the same.
+    fn is_at(&self, phases: &[f64]) -> bool {
+        let mut turns = self.phases.iter().zip(phases).map(|(one, other)| (other - one) / TAU);
+        turns.all(|turns| (turns - turns.round()).abs() < SAME)
+    }
 }
 
 /// The smallest divisor of a mode: its frequency, or its difference from the rate of a harmonic that moves the mode and has low multiples.
