@@ -67,6 +67,19 @@ def test_terms_of_the_longitude_add_up_to_the_attitude():
     assert np.abs(np.angle(np.exp(1j * (seen - sums)))).max() < 1e-10
 
 
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
+def test_a_missed_estimate_over_a_span_that_was_compared_is_twice_the_difference():
+    given = {"orbit": andoyer.Orbit(1.0, 0.1), "order": 4, "tolerance": 1e-10, "method": "libration"}
+    start = andoyer.Body([0.9996, 0.9997, 1.0]), angles(0.02, 0.012, 0.01), [0, 0, 1.0]
+    compared = andoyer.Scene(*start, span=(0, 100 * TURN), **given).solve()
+    verification = compared.verify()
+    assert verification.holds
+    assert not compared.plan.meets_tolerance
+    assert compared.plan.error_bound < 3 * verification.error
+    # Nothing was compared before the epoch: the estimate stays.
+    assert andoyer.Scene(*start, span=(-TURN, 100 * TURN), **given).solve().plan.error_bound > 3 * compared.plan.error_bound
+
+
 def test_the_rate_of_a_term_is_that_of_its_multiples():
     libration = scene(attitude=angles(0.01, 0.006, 0.005), tolerance=1e-7).solve().libration
     rates = np.array([*libration.frequencies, 1.0])

@@ -64,16 +64,23 @@ fn of_lock(scene: Scene, lock: Lock, tables: &SeriesTables, stop: &AtomicBool) -
     plan.resonance = Some(libration.twice());
     let trajectory = Trajectory::Forced(Arc::new(LibrationEvaluator::new(libration)));
     let mut motion = Motion { scene, plan, trajectory, ..free };
-    let farthest = if -reach[0] > reach[1] { reach[0] } else { reach[1] };
-    motion.plan.error_bound = checked(&motion, n, farthest, precesses, stop)?;
+    motion.plan.error_bound = checked(&motion, n, reach, precesses, stop)?;
     Ok(motion)
 }
 
 /// The error bound of a libration after a comparison with an integration from the epoch to the farther end of the span, or over as many orbits as are compared.
 ///
-/// A bound that is refuted becomes what was seen, times [`SAFETY`] and the growth over the span. The same holds for a bound above the tolerance where the whole span was compared
-/// and the result is smaller. The integration's own bound is computed only in these cases.
-fn checked(motion: &Motion, mean_motion: f64, farthest: f64, precesses: bool, stop: &AtomicBool) -> Result<f64, Error> {
+/// A bound that is refuted becomes what was seen, times [`SAFETY`] and the growth over the span. The same holds for a bound above the tolerance where the whole span was compared,
+/// which lies on one side of the epoch, and the result is smaller. The integration's own bound is computed only in these cases. `before` and `after` are the ends of the span from
+/// the epoch, in units of 1/n.
+fn checked(
+    motion: &Motion,
+    mean_motion: f64,
+    [before, after]: [f64; 2],
+    precesses: bool,
+    stop: &AtomicBool,
+) -> Result<f64, Error> {
+    let farthest = if -before > after { before } else { after };
     let (epoch, bound) = (motion.scene.state().epoch, motion.plan.error_bound);
     let misses = !motion.plan.meets_tolerance();
     let orbits = CHECKED[usize::from(precesses || misses)];
@@ -92,7 +99,7 @@ fn checked(motion: &Motion, mean_motion: f64, farthest: f64, precesses: bool, st
         };
         elapsed.iter().zip(&attitudes).map(apart).fold(0.0, f64::max)
     };
-    let is_measured = misses && growth == 1.0;
+    let is_measured = misses && growth == 1.0 && (before >= 0.0 || after <= 0.0);
     if !is_measured && departure(&Integrated::unmeasured(&compared, stop)?) <= bound {
         return Ok(bound);
     }
