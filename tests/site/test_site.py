@@ -1,6 +1,5 @@
 """The built site in a real browser: no console errors, no external requests, equations and pictures drawn, no text outside its box."""
 
-
 import pytest
 from conftest import SITE
 

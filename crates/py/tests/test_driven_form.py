@@ -305,7 +305,7 @@ def test_code_does_what_the_form_does(case, tmp_path):
         "rust": f"fn main() {{ let state = from_normal(&[{', '.join(map(repr, normal.tolist()))}], 1.7); let back = to_normal(&state, 1.7);"
         ' assert!(frequencies(&actions(&back))[0] != 0.0); for (a, b) in state.iter().zip(&back) { print!("{a:e} {b:e} "); } }\n',
     }
-    compilers = {"c": ["cc", "-std=c99", "-Wall", "-Wextra", "-O1"], "rust": ["rustc", "--edition", "2021"]}
+    compilers = {"c": ["cc", "-std=c99", "-Wall", "-Wextra", "-O0"], "rust": ["rustc", "--edition", "2021"]}
     for language, command in compilers.items():
         source, program = tmp_path / f"form.{language[0]}", tmp_path / f"form_{language}"
         source.write_text(form.to_code(language) + main[language])
