@@ -12,21 +12,18 @@ import functools
 import math
 import os
 import sys
-import time
 from pathlib import Path
 
 os.environ["RAYON_NUM_THREADS"] = "1"
 
 import heyoka as hy
 import numpy as np
+from libration import seconds
 from written import write
 
 from andoyer import Driven, normalize
 
 SAMPLES = 200
-ROUNDS = 3
-LONGEST = 2.0
-"""A measurement above so many seconds is not repeated."""
 ORDERS = (2, 4, 6, 8, 10)
 TOLERANCES = (1e-6, 1e-9, 1e-12, 1e-15)
 HALF_ROOT = math.sqrt(3) / 2
@@ -88,18 +85,6 @@ def wave(terms, anomaly):
 
 
 CASES = {"Duffing": duffing, "lattice": lattice, "L4": triangle}
-
-
-def seconds(work):
-    """The least CPU time of some rounds, and the result."""
-    least = math.inf
-    for _ in range(ROUNDS):
-        clock = time.process_time()
-        result = work()
-        least = min(least, time.process_time() - clock)
-        if least > LONGEST:
-            break
-    return least, result
 
 
 def integrated(field, start, times, tolerance, kind=float):

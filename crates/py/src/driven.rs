@@ -61,7 +61,7 @@ impl Driven {
     #[pyo3(signature = (rate, samples=None, names=None))]
     fn new(rate: &Bound<'_, PyAny>, samples: Option<Py<PyAny>>, names: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let rates = numbers_of("rate", rate)?;
-        rates.iter().try_for_each(|&rate| valid("rate", rate))?;
+        rates.iter().try_for_each(|&rate| valid("rate", "rate", rate))?;
         if rates.is_empty() {
             return Err(error::input(
                 "rate",
@@ -180,7 +180,7 @@ impl DrivenPhases {
                 None => (value.clone(), 0.0),
             };
             let (rate, float) = number(&argument, &rate)?;
-            valid(&argument, rate.to_float())?;
+            valid("driven", &argument, rate.to_float())?;
             given.names.push(name);
             given.phases.push((rate, start));
             any_float |= float;
@@ -200,13 +200,13 @@ impl DrivenPhases {
     }
 }
 
-/// Refuses a rate that is 0 or not finite.
-fn valid(argument: &str, rate: f64) -> PyResult<()> {
+/// Refuses a rate that is 0 or not finite; `name` is the argument or its entry.
+fn valid(argument: &str, name: &str, rate: f64) -> PyResult<()> {
     if rate.is_normal() {
         return Ok(());
     }
-    let message = format!("{argument} = {rate}: the rate of a driven phase must be a finite number other than 0");
-    Err(error::input(if argument == "rate" { "rate" } else { "driven" }, rate, "finite, not 0", message))
+    let message = format!("{name} = {rate}: the rate of a driven phase must be a finite number other than 0");
+    Err(error::input(argument, rate, "finite, not 0", message))
 }
 
 fn wrong(driven: &Bound<'_, PyAny>) -> PyErr {

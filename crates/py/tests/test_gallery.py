@@ -1,4 +1,4 @@
-"""The pages of documentation say nothing in Python that is not run. The scripts of the gallery run in tests/site."""
+"""The pages of documentation say nothing in Python that is not run. Sphinx runs the scripts of the gallery, and tests/site reads their pages."""
 
 import re
 

@@ -129,9 +129,9 @@ crate::error_table! {
         } => Theory, facts("resonances", *divisor, *bound);
 
         /// A coefficient of a driven Hamiltonian that does not have the period of a phase.
-        #[error("a coefficient changes by {change:.3e} while driven phase {phase} goes from 0 to 2π; the largest coefficient is {largest:.3e}")]
+        #[error("a coefficient changes by {change:.3e} while driven phase {phase} makes a turn; the largest coefficient is {largest:.3e}")]
         NotPeriodic {
-            phase: usize = "The number of the phase.",
+            phase: usize = "The number of the phase, from 0.",
             change: f64 = "The change of the coefficient.",
             largest: f64 = "The largest coefficient at these phases.",
         } => Input, facts("driven", *change, "coefficients of the period 2π");

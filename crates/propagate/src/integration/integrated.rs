@@ -10,19 +10,17 @@ use super::bound::{FLOOR, INPUT, MeasuredSteps, Profile, ReinterpolatedSteps, SA
 use super::expansion::Equations;
 use super::integrator::{KeptSteps, Precision, ROUNDING, Runner, Side, Step};
 use super::path_series::PathSeries;
+use super::rates::{covered, rates_of_orbit, rates_of_sources, rates_of_table, too_coarse};
 use super::series::{Row, largest};
-use super::torques::{Torques, falls};
+use super::torques::Torques;
 use crate::error::Error;
 use crate::input::scene::Scene;
-use crate::input::torque::{SourcePath, Torque};
+use crate::input::torque::Torque;
 use crate::motion::plan::IntegrationPlan;
 use crate::motion::verification_cost::VerificationCost;
 use crate::numerics::scaling::{exponent, scaled};
 use crate::orbit::disturbing_body::DisturbingBody;
-use crate::orbit::elements::Orbit;
-use crate::orbit::table::TabulatedOrbit;
 use crate::simd::instruction_set::{dispatch, dispatch_few};
-use crate::torque::strength;
 
 /// Relative truncation error of a step. The sum of such errors over all steps is below the rounding error.
 const FINEST: f64 = 1e-19;
@@ -70,7 +68,7 @@ impl Integrated {
         })
     }
 
-    /// The same by the steps that the tolerance asks for at first, whose errors are not measured: for comparisons. The error bound is infinite.
+    /// The motion by the steps that the tolerance asks for at first, whose errors are not measured: for comparisons. The error bound is infinite.
     ///
     /// # Errors
     /// [`Error::Stopped`], [`Error::TooManySteps`], and those of a scene that cannot be integrated.
@@ -368,89 +366,4 @@ impl Problem {
         };
         Ok([departure(true)?, departure(false)?])
     }
-}
-
-/// Whether a table covers a span.
-fn covered(table: &TabulatedOrbit, (start, stop): (f64, f64)) -> Result<(), Error> {
-    let (first, last) = table.ends();
-    if start < first || stop > last { Err(Error::TableSpan { start, stop, first, last }) } else { Ok(()) }
-}
-
-/// The fastest, the lasting and the secular rates that the sources of torques bring in.
-///
-/// # Errors
-/// Those of a source without a position over the span, and [`Error::Torque`] for powers of its distance that no double holds.
-fn rates_of_sources(scene: &Scene, span: (f64, f64)) -> Result<[f64; 3], Error> {
-    let mut rates = [0.0_f64; 3];
-    let sources = scene.asked_torques().iter().flat_map(|torque| match torque {
-        Torque::Polynomial(torque) => torque.sources(),
-        _ => &[],
-    });
-    for source in sources {
-        match source.path() {
-            SourcePath::Orbit(orbit) => {
-                orbit.within_reach(scene.state().epoch)?;
-                let secular = orbit.rates().iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
-                let own = [rates_of_motion(orbit), orbit.mean_motion(), secular];
-                rates = std::array::from_fn(|k| rates[k].max(own[k]));
-            }
-            SourcePath::Tabulated(table) => covered(table, span)?,
-            SourcePath::Direction(_) => {}
-        }
-        if falls(source, scene).iter().any(|fall| !fall.is_normal()) {
-            let (power, distance) = source.distance_power();
-            let value = format!("{}: {power} with a reference distance of {distance:e}", source.name());
-            let bound = "such that (r0/r)^p is a double over the span".to_owned();
-            return Err(Error::Torque { argument: "distance_powers", value, bound });
-        }
-    }
-    Ok(rates)
-}
-
-/// The error of a scene with a table whose interpolation leaves the attitude unknown: the time after the worst interval.
-fn too_coarse(scene: &Scene, [start, stop]: [f64; 2]) -> Option<Error> {
-    let epoch = scene.state().epoch;
-    let disturbing = scene.asked_disturbing().iter().filter_map(|body| match body {
-        DisturbingBody::Tabulated(table) => Some(table),
-        DisturbingBody::Orbit(_) => None,
-    });
-    let sources = scene.asked_torques().iter().flat_map(|torque| match torque {
-        Torque::Polynomial(torque) => torque.sources(),
-        _ => &[],
-    });
-    let sources = sources.filter_map(|source| match source.path() {
-        SourcePath::Tabulated(table) => Some(table),
-        _ => None,
-    });
-    let coarsest = disturbing.chain(sources).map(|table| (table, table.coarsest(epoch + start, epoch + stop)));
-    let (table, (interval, _)) = coarsest.max_by(|one, other| one.1.1.total_cmp(&other.1.1))?;
-    let bound = "nearer to the time before it: the interpolation of the positions leaves the attitude unknown";
-    Some(Error::Table { argument: "times", index: interval + 1, value: table.times()[interval + 1], bound })
-}
-
-/// The fastest rate that an orbit brings in, and the torque's √(3μ/ρ³) at the apocentre, or where a hyperbola is farthest within the span.
-fn rates_of_orbit(orbit: &Orbit, ends: [f64; 2]) -> (f64, f64) {
-    let e = orbit.eccentricity();
-    let strength = (2.0 * strength(orbit.strength())).sqrt();
-    let near = (1.0 - e).abs().powf(-1.5);
-    let farthest = if orbit.is_hyperbola() {
-        ends.map(|end| orbit.hyperbolic_distance(end)).into_iter().fold(e - 1.0, f64::max)
-    } else {
-        1.0 + e
-    };
-    ((strength * near).max(rates_of_motion(orbit)), strength * farthest.powf(-1.5))
-}
-
-/// The fastest rate of the directions to a body on an orbit.
-fn rates_of_motion(orbit: &Orbit) -> f64 {
-    let [node, pericentre] = orbit.rates().map(f64::abs);
-    (2.0 * orbit.mean_motion() * (1.0 - orbit.eccentricity()).abs().powf(-1.5)).max(node).max(pericentre)
-}
-
-/// √(3 gm/r³) at the nearest and the farthest position.
-fn rates_of_table(table: &TabulatedOrbit) -> (f64, f64) {
-    let distances = table.positions().iter().map(|[x, y, z]| x.hypot(*y).hypot(*z));
-    let (nearest, farthest) = distances.fold((f64::INFINITY, 0.0_f64), |(least, most), r| (least.min(r), most.max(r)));
-    let rate = |distance: f64| (3.0 * table.gm() / distance).sqrt() / distance;
-    (rate(nearest), rate(farthest))
 }

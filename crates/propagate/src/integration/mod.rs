@@ -17,6 +17,7 @@ pub(crate) mod integrator;
 mod interpolation;
 mod linear;
 mod path_series;
+mod rates;
 mod series;
 mod torques;
 pub(crate) mod variation;

@@ -202,11 +202,7 @@ impl BirkhoffMap {
     ///   p²)/2 is never negative;
     /// - a resonant normal form: [`Error::ResonantTerm`].
     pub fn frequencies(&self, actions: &[f64]) -> Result<Vec<f64>, Error> {
-        check("actions", actions, self.modes.len())?;
-        let negative = self.modes.iter().zip(actions).find(|(mode, action)| mode.is_elliptic() && **action < 0.0);
-        if let Some((_, &value)) = negative {
-            return Err(Error::OutsideInterval { argument: "actions", value, lower: 0.0, upper: f64::INFINITY });
-        }
+        check_actions(&self.modes, actions)?;
         finite("frequencies", self.flow.frequencies(actions)?)
     }
 
@@ -351,6 +347,17 @@ pub(crate) fn check(what: &'static str, values: &[f64], expected: usize) -> Resu
         return Err(Error::CountMismatch { what, found: values.len(), expected });
     }
     finite(what, values.to_vec()).map(drop)
+}
+
+/// Refuses another number of actions than of modes, a NaN, and a negative action of a centre.
+pub(crate) fn check_actions(modes: &[Mode<f64>], actions: &[f64]) -> Result<(), Error> {
+    check("actions", actions, modes.len())?;
+    match modes.iter().zip(actions).find(|(mode, action)| mode.is_elliptic() && **action < 0.0) {
+        Some((_, &value)) => {
+            Err(Error::OutsideInterval { argument: "actions", value, lower: 0.0, upper: f64::INFINITY })
+        }
+        None => Ok(()),
+    }
 }
 
 pub(crate) fn finite(what: &'static str, values: Vec<f64>) -> Result<Vec<f64>, Error> {

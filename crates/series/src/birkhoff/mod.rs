@@ -24,7 +24,7 @@ pub(crate) mod mode;
 mod phase_space;
 pub(crate) mod phases;
 mod quadratic;
-mod resonances;
+pub(crate) mod resonances;
 mod scaled;
 pub(crate) mod spectrum;
 pub(crate) mod text;

@@ -69,10 +69,7 @@ impl Resonances {
     /// # Errors
     /// - −1, 1.1, NaN: [`Error::OutsideInterval`].
     pub fn with_smallest_divisor(mut self, smallest_divisor: f64) -> Result<Self, Error> {
-        if !(0.0..=1.0).contains(&smallest_divisor) {
-            let (argument, value) = ("smallest_divisor", smallest_divisor);
-            return Err(Error::OutsideInterval { argument, value, lower: 0.0, upper: 1.0 });
-        }
+        check_smallest_divisor(smallest_divisor)?;
         self.smallest_divisor = smallest_divisor;
         Ok(self)
     }
@@ -185,6 +182,14 @@ pub(crate) fn is_small<R: RealField>(divisor: &R::Complex, bound: f64) -> bool {
 
 fn pivot(row: &[i128]) -> Option<usize> {
     row.iter().position(|&entry| entry != 0)
+}
+
+/// Refuses a smallest divisor outside 0 to 1.
+pub(crate) fn check_smallest_divisor(value: f64) -> Result<(), Error> {
+    if (0.0..=1.0).contains(&value) {
+        return Ok(());
+    }
+    Err(Error::OutsideInterval { argument: "smallest_divisor", value, lower: 0.0, upper: 1.0 })
 }
 
 /// row − quotient · other, or `None` on overflow.

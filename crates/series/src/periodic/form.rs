@@ -24,7 +24,7 @@ use super::row::Periodic;
 use super::start::eigenvalues;
 use crate::birkhoff::Mode;
 use crate::birkhoff::domain::{Domain, size};
-use crate::birkhoff::map::{check, finite, needed};
+use crate::birkhoff::map::{check_actions, finite, needed};
 use crate::birkhoff::matrix::symplectic_inverse;
 use crate::bracket::Poisson;
 use crate::error::Error;
@@ -36,7 +36,7 @@ use crate::triangle::{LieTransform, Progress, normalize_backwards, stop};
 const FEWEST: usize = 4;
 /// Coefficients may differ between the times of a grid by so many times the tolerance of its last harmonics.
 const BETWEEN: f64 = 100.0;
-/// Most times of a grid of several phases: a Newton step takes some seconds with one pair.
+/// Most times of a grid of several phases.
 const MOST_TIMES: usize = 20_000;
 /// Grids without a solution after which there is none.
 const FAILURES: usize = 4;
@@ -225,16 +225,12 @@ impl DrivenForm {
         self.frequencies_of_order(self.order(), actions)
     }
 
-    /// The same by the terms to an order, which are those of the form of this order.
+    /// The rates by the terms to an order, which are those of the form of this order.
     ///
     /// # Errors
     /// - Those of [`frequencies`](Self::frequencies).
     pub fn frequencies_of_order(&self, order: usize, actions: &[f64]) -> Result<Vec<f64>, Error> {
-        check("actions", actions, self.motion.modes.len())?;
-        let negative = self.modes().iter().zip(actions).find(|(mode, action)| mode.is_elliptic() && **action < 0.0);
-        if let Some((_, &value)) = negative {
-            return Err(Error::OutsideInterval { argument: "actions", value, lower: 0.0, upper: f64::INFINITY });
-        }
+        check_actions(self.modes(), actions)?;
         let truncation = Truncation::total((order / 2) as u32);
         let rates: Result<Vec<f64>, Error> =
             self.frequencies.iter().map(|frequency| frequency.truncate(&truncation).evaluate(actions)).collect();

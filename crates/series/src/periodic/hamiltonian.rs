@@ -45,11 +45,12 @@ pub trait DrivenHamiltonian: Sync {
 
 /// Phases at which coefficients are compared between the times of a grid.
 const BETWEEN: u32 = 8;
-/// Their roots are the steps of the phases in turns: no combination of them with integers is one.
+/// The roots of these primes are the steps of the phases \[turns\]: no sum of them with integer weights is an integer.
 const PRIMES: [f64; 8] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0];
 /// A coefficient below this part of the largest one is rounding.
 const ROUNDING: f64 = 1e-15;
-/// Coefficients at 0 and 2π differ by less than this part of the coefficient.
+/// The phase \[rad\] that is compared with itself after a turn, where no sine is 0, and the largest difference in units of the largest coefficient.
+const CLOSED_AT: f64 = 1.0;
 const CLOSED: f64 = 1e-9;
 
 /// A polynomial Hamiltonian whose coefficients are functions of the driven phases.
@@ -65,22 +66,22 @@ impl<F: Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync> SampledHamilto
         Self { pairs, samples, harmonics: Vec::new() }
     }
 
-    /// The same with the highest harmonic of each phase where it is known.
+    /// The Hamiltonian with the highest harmonic of each phase, where it is known.
     #[must_use]
     pub fn with_harmonics(self, harmonics: Vec<usize>) -> Self {
         Self { harmonics, ..self }
     }
 
-    /// Whether each coefficient has the period 2π of each phase, but for rounding of the phase.
-    fn closes(&self, phases: usize) -> Result<(), Error> {
+    /// Refuses a coefficient that does not have the period 2π of each phase.
+    fn check_period(&self, phases: usize) -> Result<(), Error> {
         let at = |phases: &[f64]| Ok::<_, Error>(Polynomial::from_terms((self.samples)(phases)?));
-        let start = at(&vec![0.0; phases])?;
+        let start = at(&vec![CLOSED_AT; phases])?;
         for phase in 0..phases {
-            let mut turned = vec![0.0; phases];
-            turned[phase] = TAU;
+            let mut turned = vec![CLOSED_AT; phases];
+            turned[phase] += TAU;
             let end = at(&turned)?;
             let largest = start.terms().chain(end.terms()).map(|(_, c)| c.abs()).fold(0.0, f64::max);
-            let mut change = end.clone();
+            let mut change = end;
             change -= &start;
             if let Some((_, c)) = change.terms().find(|(_, c)| c.abs() > CLOSED * largest) {
                 return Err(Error::NotPeriodic { phase, change: c.abs(), largest });
@@ -143,7 +144,7 @@ impl<F: Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync> DrivenHamilton
     }
 
     fn between_times(&self, grid: &Grid) -> Result<f64, Error> {
-        self.closes(grid.phases())?;
+        self.check_period(grid.phases())?;
         let known = self.on(grid)?;
         let rounding = ROUNDING * known.terms().map(|(_, c)| c.size()).fold(0.0, f64::max);
         let mut most = 0.0_f64;

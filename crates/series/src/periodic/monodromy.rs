@@ -14,7 +14,7 @@ use crate::error::Error;
 const ORDER: usize = 28;
 const REACH: f64 = 3.0;
 
-/// Most steps over a period: about a second with one pair.
+/// Most steps over a period.
 const MOST_STEPS: usize = 100_000;
 
 /// Φ at the times of a grid of one phase and after the period, 1 at the phase 0. If the rate is negative, the solution runs backwards in time.

@@ -1,7 +1,7 @@
 //! The periodic motion of a driven Hamiltonian.
 //!
 //! ẋ = J ∇H(x, M) has a solution x̄(M). One Newton step for it solves n∂δ − J S δ = r with the residual r and the matrix S of second derivatives along x̄. In the variables w of
-//! Floquet's frame, δ = P w, the harmonics of w are those of P⁻¹ r over i j·n minus an eigenvalue. Where the motion of a step has no real frame, the equation is solved at all times
+//! Floquet's frame, δ = P w, the harmonics of w are those of P⁻¹ r over i j·n minus an eigenvalue. From the first step whose motion has no real frame, the equation is solved at all times
 //! together, so that the multipliers of an error are those of the periodic motion. The method holds for any number of phases; with two or more x̄ and P are quasi-periodic (À. Haro and R. de la Llave, Discrete Contin. Dyn. Syst. B 6 (2006) 1261).
 
 use nalgebra::{DMatrix, DVector};
@@ -21,7 +21,7 @@ use crate::polynomial::Polynomial;
 
 /// Most Newton steps.
 const STEPS: usize = 40;
-/// The largest linear system of a step without a frame: some 0.3 s.
+/// The largest linear system of a step without a frame.
 const MOST_ROWS: usize = 1000;
 
 /// A periodic motion and the frame of Floquet about it.
@@ -49,7 +49,7 @@ impl PeriodicMotion {
         going: &mut dyn FnMut() -> Result<(), Error>,
     ) -> Result<Self, Error> {
         let mut origin = vec![Periodic::zero(); 2 * system.pairs()];
-        let (mut before, mut kept) = (f64::INFINITY, None);
+        let (mut before, mut kept, mut frameless) = (f64::INFINITY, None, None);
         if let Some(known) = known {
             let onto = |function: &Periodic| grid.sampled(|phases| function.weighted(&known.grid.weights(phases)));
             origin = known.origin.iter().map(onto).collect();
@@ -63,41 +63,34 @@ impl PeriodicMotion {
             for (left, x) in left.iter_mut().zip(&origin) {
                 *left -= &grid.derivative(x);
             }
-            let found = frame(&grid, &second, kept.take());
-            let step = match &found {
-                Ok(known) => step_in_frame(&grid, known, &left),
-                // The frame of a step need not be that of the periodic motion.
-                Err(error) => match step_at_all_times(&grid, &second, &left) {
-                    Some(step) => step,
-                    None => {
-                        let size = |functions: &[Periodic]| functions.iter().map(Periodic::size).fold(0.0, f64::max);
-                        let miss = size(&left) / second.iter().map(|row| size(row)).fold(0.0, f64::max);
-                        let at_rest = miss <= SMALL * size(&origin).max(1.0);
-                        return Err(if at_rest {
-                            error.clone()
-                        } else {
-                            Error::NoPeriodicMotion { miss, steps: number }
-                        });
-                    }
-                },
+            if frameless.is_none() {
+                match frame(&grid, &second, kept.take()) {
+                    Ok(found) => kept = Some(found),
+                    // That of a step is not that of the periodic motion.
+                    Err(error) => frameless = Some(error),
+                }
+            }
+            let step = match &kept {
+                Some(frame) => step_in_frame(&grid, frame, &left),
+                None => step_at_all_times(&grid, &second, &left)
+                    .ok_or_else(|| unsolved(frameless.clone(), &left, &second, (&origin, number)))?,
             };
-            let size = step.iter().map(Periodic::size).fold(0.0, f64::max);
+            let size = size(&step);
             if !size.is_finite() {
                 return Err(Error::NoPeriodicMotion { miss: size, steps: number });
             }
             origin.iter_mut().zip(&step).for_each(|(x, step)| *x += step);
-            let scale = origin.iter().map(Periodic::size).fold(1.0, f64::max);
+            let scale = self::size(&origin).max(1.0);
             let slow = size > before * SLOWEST && size < SMALL * scale;
             if size <= REACHED * scale || slow {
                 let (slopes, second) = quadratic(system, &grid, &origin)?;
-                let (change, modes) = frame(&grid, &second, found.ok())?;
+                let (change, modes) = frame(&grid, &second, kept)?;
                 let mut tails = vec![0.0; grid.phases()];
                 add_tails(&mut tails, &grid, origin.iter().chain(change.iter().flatten()), 1.0);
                 add_tails(&mut tails, &grid, slopes.iter().chain(second.iter().flatten()), fastest(&modes));
                 return Ok(Self { grid, origin, change, modes, tails });
             }
             before = size;
-            kept = found.ok();
         }
         Err(Error::NoPeriodicMotion { miss: before, steps: STEPS })
     }
@@ -117,6 +110,23 @@ impl PeriodicMotion {
     }
 }
 
+/// The largest value of some functions.
+fn size(functions: &[Periodic]) -> f64 {
+    functions.iter().map(Periodic::size).fold(0.0, f64::max)
+}
+
+/// The error where a step has neither a frame nor a linear system: that of the frame if the motion is periodic already.
+fn unsolved(
+    frameless: Option<Error>,
+    left: &[Periodic],
+    second: &Matrix<Periodic>,
+    (origin, steps): (&[Periodic], usize),
+) -> Error {
+    let miss = size(left) / second.iter().map(|row| size(row)).fold(0.0, f64::max);
+    let reached = miss <= SMALL * size(origin).max(1.0);
+    frameless.filter(|_| reached).unwrap_or(Error::NoPeriodicMotion { miss, steps })
+}
+
 /// The Newton step for a residual in the variables of a frame, where it is a division of each harmonic.
 fn step_in_frame(grid: &Grid, (change, modes): &Frame, left: &[Periodic]) -> Vec<Periodic> {
     let left: Matrix<Periodic> = left.iter().map(|row| vec![row.clone()]).collect();
@@ -128,7 +138,7 @@ fn step_in_frame(grid: &Grid, (change, modes): &Frame, left: &[Periodic]) -> Vec
     product(change, &step).into_iter().map(|row| row[0].real_part()).collect()
 }
 
-/// The same step without a frame, by one linear system for all times; none beyond [`MOST_ROWS`] and where the system is singular.
+/// The Newton step without a frame, by one linear system for all times; none beyond [`MOST_ROWS`] and where the system is singular.
 fn step_at_all_times(grid: &Grid, second: &Matrix<Periodic>, left: &[Periodic]) -> Option<Vec<Periodic>> {
     let (n, times) = (left.len(), grid.times());
     if n * times > MOST_ROWS {

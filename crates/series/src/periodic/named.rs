@@ -19,6 +19,7 @@ use super::row::Periodic;
 use crate::birkhoff::actions::action_texts;
 use crate::birkhoff::json::reals;
 use crate::birkhoff::phases::cosines;
+use crate::birkhoff::resonances::check_smallest_divisor;
 use crate::birkhoff::text::{Line, latex, significant, symbol};
 use crate::birkhoff::variables::to_real;
 use crate::birkhoff::verify::same;
@@ -125,10 +126,7 @@ impl DrivenNormalForm {
         if order > MAX_DRIVEN_ORDER {
             return Err(Error::OrderTooLarge { order, bound: MAX_DRIVEN_ORDER });
         }
-        if !(0.0..=1.0).contains(&smallest_divisor) {
-            let (argument, value) = ("smallest_divisor", smallest_divisor);
-            return Err(Error::OutsideInterval { argument, value, lower: 0.0, upper: 1.0 });
-        }
+        check_smallest_divisor(smallest_divisor)?;
         check_driven(phases, space)?;
         let (rates, starts): (Vec<f64>, Vec<f64>) = phases.iter().copied().unzip();
         let harmonics = HARMONICS[usize::from(rates.len() > 1)];

@@ -17,6 +17,8 @@ const STEPS: usize = 80;
 const SLOWEST: f64 = 0.9;
 /// An image that misses its state by more than this part of the distance from the periodic motion is beyond the range of the series.
 const LOST: f64 = 0.01;
+/// A distance below this part of the variables is rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// Terms of the transformation below this part of the largest variable do not count.
 const NEGLIGIBLE: f64 = 1e-19;
@@ -70,10 +72,8 @@ impl FormAtPhases<'_> {
     /// The state of real normal variables by the terms to an order.
     fn image(&self, normal: &[f64], terms: &[TermAtPhases], order: usize) -> Result<Vec<f64>, Error> {
         let modes = &self.form.motion.modes;
-        let powers: Vec<Vec<Complex<f64>>> = complex_point(modes, normal)
-            .into_iter()
-            .map(|z| std::iter::successors(Some(Complex::one()), |power| Some(power * z)).take(order + 2).collect())
-            .collect();
+        let powers: Vec<Vec<Complex<f64>>> =
+            complex_point(modes, normal).into_iter().map(|z| powers(z, order + 1)).collect();
         let mut values = vec![Complex::zero(); normal.len()];
         for term in terms.iter().filter(|term| term.order <= order) {
             let mut product = term.value;
@@ -109,14 +109,15 @@ impl FormAtPhases<'_> {
     pub fn to_normal(&self, state: &[f64]) -> Result<Vec<f64>, Error> {
         let (normal, miss) = self.to_normal_by_orders(state, &[self.form.order()])?.remove(0);
         let distance = state.iter().zip(&self.origin).fold(0.0_f64, |most, (x, origin)| most.max((x - origin).abs()));
-        if miss > LOST * distance.max(f64::EPSILON) {
+        let size = state.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        if miss > LOST * distance.max(ROUNDING * size) {
             return Err(Error::BeyondSeries { miss, distance });
         }
         Ok(normal)
     }
 
-    /// The same by the terms to each of some orders, which are those of the forms of these orders, and how far the image is from the state. Beyond the range of the series they
-    /// are the variables of the best step.
+    /// The normal variables by the terms to each of some orders, which are those of the forms of these orders, and how far their image is from the state. Beyond the range of the
+    /// series they are the variables of the best step.
     ///
     /// # Errors
     /// - another number of variables: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`].
@@ -156,6 +157,11 @@ impl FormAtPhases<'_> {
         };
         orders.iter().map(settled).collect()
     }
+}
+
+/// 1, z, z², … to a power.
+pub(super) fn powers(z: Complex<f64>, most: usize) -> Vec<Complex<f64>> {
+    std::iter::successors(Some(Complex::one()), |power| Some(power * z)).take(most + 1).collect()
 }
 
 impl DrivenForm {

@@ -4,6 +4,7 @@ use num_complex::Complex;
 
 use super::form::DrivenForm;
 use super::row::Periodic;
+use super::state::powers;
 use crate::birkhoff::Mode;
 use crate::birkhoff::map::check;
 use crate::birkhoff::mode::{complex_in_real, real_in_complex};
@@ -110,8 +111,9 @@ impl DrivenForm {
         let least = NEGLIGIBLE * actions.iter().fold(0.0_f64, |most, action| most.max((2.0 * action).sqrt()));
         let harmonics = self.fourier(&actions, least)?;
         let angles = self.angles_of(&normal);
-        let most = |slot: usize| harmonics.iter().map(|one| one.multiples[slot].unsigned_abs()).max().unwrap_or(0);
-        let highest: Vec<u64> = (0..angles.len() + phases.len()).map(most).collect();
+        let most =
+            |slot: usize| harmonics.iter().map(|one| one.multiples[slot].unsigned_abs()).max().unwrap_or(0) as usize;
+        let highest: Vec<usize> = (0..angles.len() + phases.len()).map(most).collect();
         let at = |&time: &f64| {
             let mut sums = vec![0.0; state.len()];
             let moved: Vec<f64> = angles.iter().zip(&rates).map(|(angle, rate)| angle + rate * time).collect();
@@ -130,11 +132,6 @@ impl DrivenForm {
         };
         Ok(times.iter().map(at).collect())
     }
-}
-
-/// 1, z, z², … to a power.
-fn powers(z: Complex<f64>, most: u64) -> Vec<Complex<f64>> {
-    std::iter::successors(Some(Complex::new(1.0, 0.0)), |power| Some(power * z)).take(most as usize + 1).collect()
 }
 
 /// The real part of a function after a linear change.

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use andoyer_series::birkhoff::{Mode, PhaseSpace, normalize};
-use andoyer_series::periodic::{DrivenForm, DrivenOptions, SampledHamiltonian, terms_at};
+use andoyer_series::periodic::{DrivenForm, DrivenHamiltonian, DrivenOptions, Grid, SampledHamiltonian, terms_at};
 use andoyer_series::progress::quiet;
 use andoyer_series::{Error, Monomial, Polynomial};
 use num_complex::Complex;
@@ -311,9 +311,21 @@ fn newtons_iteration_passes_motions_that_have_no_real_frame() -> Result<(), Erro
 }
 
 #[test]
+fn coefficients_that_are_sines_alone_have_the_period_of_the_phase() -> Result<(), Error> {
+    // They are 0 at the phase 0 and rounding at 2π.
+    let sine = SampledHamiltonian::new(1, |phases: &[f64]| Ok(vec![(Monomial::new(&[2])?, (3.0 * phases[0]).sin())]));
+    assert!(sine.between_times(&Grid::new(&[(1.0, 4)]))? < 1e-14);
+    let half = SampledHamiltonian::new(1, |phases: &[f64]| Ok(vec![(Monomial::new(&[2])?, (phases[0] / 2.0).sin())]));
+    assert!(matches!(half.between_times(&Grid::new(&[(1.0, 4)])), Err(Error::NotPeriodic { phase: 0, .. })));
+    Ok(())
+}
+
+#[test]
 fn a_state_beyond_the_range_of_the_series_has_no_normal_variables() -> Result<(), Error> {
     let form = form("(p^2 + x^2)/2 + x^4/4 - 0.05*x*cos(M)", &[("x", "p")], &[1.7], 6)?;
     assert!(form.at(&[0.0]).to_normal(&[0.3, 0.0]).is_ok());
+    // The periodic motion itself, which is at a distance of rounding.
+    assert!(form.at(&[0.0]).to_normal(&form.periodic(&[0.0])).is_ok());
     let beyond = form.at(&[0.0]).to_normal(&[3.0, 0.0]);
     assert!(
         matches!(beyond, Err(Error::BeyondSeries { miss, distance }) if miss > 0.03 && (distance - 3.026).abs() < 0.01),
