@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use andoyer_propagate::ensemble::OnError;
+use andoyer_propagate::torques::Torque;
 use andoyer_propagate::{Body, Ensemble, Error, Method, Motion, Orbit, Scene, SeriesTables, State, TabulatedOrbit};
 
 fn scene(epoch: f64) -> Scene {
@@ -37,6 +38,24 @@ fn flag_ends_every_evaluation_of_a_motion() {
                 assert!(going || matches!(ended, Err(Error::Stopped)));
             }
         }
+    }
+}
+
+#[test]
+fn integrations_of_milliseconds_are_brief() {
+    let orbit = Orbit::new(0.4, 0.1).expect("an orbit");
+    let integrated = |span: f64| scene(0.0).orbit(orbit).span(0.0, span).method(Method::Integrated);
+    let torque = Torque::constant([1e-3, 0.0, 0.0]).expect("a torque");
+    let needle = Orbit::new(0.4, 0.999).expect("an orbit");
+    assert!(integrated(50.0).is_brief());
+    for long in [
+        integrated(1e4),                                    // by its rotation
+        integrated(50.0).orbit(needle),                     // passages may spin the body up
+        integrated(50.0).torques([torque]),                 // so may a torque
+        scene(0.0).orbit(orbit).span(0.0, 50.0),            // theory and librations are tried first
+        scene(0.0).orbit(orbit).method(Method::Integrated), // no span: refused
+    ] {
+        assert!(!long.is_brief(), "{long:?}");
     }
 }
 

@@ -408,7 +408,7 @@ impl Scene {
                 return Ok(motion);
             }
         }
-        interruptible(py, true, error::propagation, |stop| self.scene.solve_until(&self.tables, stop))
+        interruptible(py, !self.scene.is_brief(), error::propagation, |stop| self.scene.solve_until(&self.tables, stop))
     }
 
     /// The keyword arguments that make this scene.

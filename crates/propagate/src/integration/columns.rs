@@ -128,14 +128,12 @@ impl<'a> ColumnBlock<'a> {
     ) {
         let mut turned = [[[0.0; 4]; 2]; ROWS];
         for k in 0..order {
-            let mut sums = [[0.0; 4]; 3];
+            let mut sum = Vector3::zeros();
             for j in 0..=k {
-                let (matrix, change) = (workspace.matrix(j), &change[k - j]);
-                for axis in 0..3 {
-                    add_scaled(simd, &mut sums[axis], change[axis], &matrix[axis]);
-                }
+                let [x, y, z, _] = change[k - j];
+                sum += workspace.matrix(j).tr_mul(&Vector3::new(x, y, z));
             }
-            let [x, y, z] = [0, 1, 2].map(|at| sums[0][at] + sums[1][at] + sums[2][at]);
+            let [x, y, z] = sum.into();
             turned[k] = [[y, z, x, 0.0], [z, x, y, 0.0]];
             let mut force = [0.0; 4];
             for (j, [first, second]) in turned[..=k].iter().enumerate() {

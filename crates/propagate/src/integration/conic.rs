@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use super::series::{GRAVITY, ROWS, Row, Scalars, Series, ZERO, add_scaled, product};
+use super::series::{GRAVITY, RECIPROCALS, ROWS, Row, Scalars, Series, ZERO, add_scaled, product};
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
 use crate::orbit::elements::Orbit;
@@ -37,6 +37,8 @@ pub(super) struct Conic {
     /// The mean anomaly of the singularity above the pericentre, over the imaginary unit.
     singularity: f64,
     tilt: (f64, f64),
+    /// The directions to the pericentre and a quarter turn further, inertial, at the epoch.
+    axes: [Row; 2],
     /// The series is `strength` times this power of the distance times the position: √(3μ) and −5/2 for the gravity gradient.
     strength: f64,
     power: f64,
@@ -49,12 +51,15 @@ impl Conic {
         let [node, argument] = orbit.node_and_argument(epoch);
         let [_, eccentricity, time_of_pericentre, ..] = orbit.elements();
         let root = ((1.0 - eccentricity) * (1.0 + eccentricity)).abs().sqrt();
+        let still = [node, argument].map(|phase| phase.angle((0.0, 0.0)).sin_cos());
+        let tilt = orbit.tilt();
+        let axis = |row: Row| turned(tilted(turned(row, still[1]), tilt), still[0]);
         Self {
             mean_anomaly: orbit.mean_anomaly(epoch),
             since_pericentre: scaled(epoch - time_of_pericentre, exponent),
             by_fraction: orbit.asked_attraction().is_none(),
             hyperbola: orbit.is_hyperbola().then_some((*orbit, epoch)),
-            still: [node, argument].map(|phase| phase.angle((0.0, 0.0)).sin_cos()),
+            still,
             node,
             argument,
             rates: orbit.rates().map(|rate| scaled(rate, -exponent)),
@@ -62,7 +67,8 @@ impl Conic {
             eccentricity,
             root,
             singularity: singularity(eccentricity),
-            tilt: orbit.tilt(),
+            tilt,
+            axes: [axis([1.0, 0.0, 0.0, 0.0]), axis([0.0, 1.0, 0.0, 0.0])],
             strength,
             power,
             exponent,
@@ -79,10 +85,15 @@ impl Conic {
     ) -> f64 {
         let elapsed = (scaled(high, -self.exponent), scaled(low, -self.exponent));
         let mean = self.mean(elapsed).1;
-        let mut place = self.conic(simd, mean, order).place(simd, order);
-        self.turn(simd, &mut place, 1, (elapsed, order));
-        let tilted = place.map(|row| tilted(row, self.tilt));
-        *out = self.beside_node(simd, &tilted, (elapsed, order));
+        if self.rates == [0.0; 2] {
+            self.conic(simd, mean, (order, &self.axes), out);
+        } else {
+            let mut place = ZERO;
+            self.conic(simd, mean, (order, &IN_PLANE), &mut place);
+            self.turn(simd, &mut place, 1, (elapsed, order));
+            let tilted = place.map(|row| tilted(row, self.tilt));
+            *out = self.beside_node(simd, &tilted, (elapsed, order));
+        }
         (mean * mean + self.singularity * self.singularity).sqrt() / self.mean_motion
     }
 
@@ -113,8 +124,8 @@ impl Conic {
     pub(super) fn by_elements<S: InstructionSet>(&self, simd: S, (high, low): (f64, f64), order: usize) -> [Series; 6] {
         let elapsed = (scaled(high, -self.exponent), scaled(low, -self.exponent));
         let at = (elapsed, order);
-        let conic = self.conic(simd, self.mean(elapsed).1, order + 1);
-        let mut place = conic.place(simd, order + 1);
+        let mut place = ZERO;
+        let conic = self.conic(simd, self.mean(elapsed).1, (order + 1, &IN_PLANE), &mut place);
         let mut by_anomaly = ZERO;
         for k in 0..order {
             by_anomaly[k] = place[k + 1].map(|value| value * (k + 1) as f64 / self.mean_motion);
@@ -176,7 +187,7 @@ impl Conic {
     /// The series of the factor and the power of the distance.
     pub(super) fn factor<S: InstructionSet>(&self, simd: S, (high, low): (f64, f64), order: usize) -> Scalars {
         let elapsed = (scaled(high, -self.exponent), scaled(low, -self.exponent));
-        self.conic(simd, self.mean(elapsed).1, order).factor
+        self.conic(simd, self.mean(elapsed).1, (order, &IN_PLANE), &mut ZERO.clone()).factor
     }
 
     /// Whole turns of the mean anomaly since the epoch, and the angle beyond them.
@@ -197,42 +208,54 @@ impl Conic {
         (of((scaled(high, -self.exponent), scaled(low, -self.exponent))) - of((0.0, 0.0))).abs()
     }
 
-    /// The series in the orbit's axes, from the mean anomaly.
+    /// The series from the mean anomaly. `place` becomes the position times the factor, in the axes in which the direction to the pericentre and that a quarter turn
+    /// further are given.
     #[inline(always)]
-    fn conic<S: InstructionSet>(&self, simd: S, mean: f64, order: usize) -> ConicSeries {
+    fn conic<S: InstructionSet>(
+        &self,
+        simd: S,
+        mean: f64,
+        (order, axes): (usize, &[Row; 2]),
+        place: &mut Series,
+    ) -> ConicSeries {
         let e = self.eccentricity;
         let ConicPoint { x, sine, cosine, radius, sign } = match self.hyperbola {
             None => ConicPoint::on_ellipse(mean, e),
             Some(_) => ConicPoint::on_hyperbola(mean, e),
         };
         let inverse = 1.0 / radius;
-        let (mut rate, mut factor): (Scalars, Scalars) = ([0.0; ROWS], [0.0; ROWS]);
+        let mut series = ConicSeries { ellipse: ZERO, factor: [0.0; ROWS], rate: [0.0; ROWS], rows: ZERO };
+        let ConicSeries { ellipse, factor, rate, rows } = &mut series;
         rate[0] = self.mean_motion * inverse;
         factor[0] = if self.power == GRAVITY {
             self.strength * inverse * inverse / radius.sqrt()
         } else {
             self.strength * radius.powf(self.power)
         };
-        // x, sin E, ρ and k ρ of order k.
-        let mut rows = ZERO;
-        let mut ellipse = ZERO;
+        let on_axes = |x: f64, y: f64| -> Row {
+            let mut row = axes[1].map(|part| y * part);
+            add_scaled(simd, &mut row, x, &axes[0]);
+            row
+        };
         rows[0] = [x, sine, radius, 0.0];
-        ellipse[0] = [x, self.root * sine, 0.0, 0.0];
+        ellipse[0] = on_axes(x, self.root * sine);
         for k in 0..order {
-            let by_rate = convolved(simd, &rate, &rows, k);
-            let by_factor = convolved(simd, &factor, &rows, k);
+            let [by_rate, by_factor, mut found] = convolved(simd, [rate, factor], [rows, ellipse], k);
             if k > 0 {
                 rate[k] = -by_rate[2] * inverse;
-                factor[k] = -inverse * (-(self.power + 1.0) * by_factor[3] / k as f64 + by_factor[2]);
+                let grown = -(self.power + 1.0) * RECIPROCALS[k];
+                factor[k] = -inverse * grown.mul_add(by_factor[3], by_factor[2]);
             }
-            let share = 1.0 / (k + 1) as f64;
+            add_scaled(simd, &mut found, factor[k], &ellipse[0]);
+            place[k] = found;
+            let share = RECIPROCALS[k + 1];
             // The cosine is x + e, and the hyperbolic one e − x.
             let next = -share * sine.mul_add(rate[k], by_rate[1]);
             let next_sine = share * cosine.mul_add(rate[k], sign * by_rate[0]);
             rows[k + 1] = [next, next_sine, -e * next, -e * next * (k + 1) as f64];
-            ellipse[k + 1] = [next, self.root * next_sine, 0.0, 0.0];
+            ellipse[k + 1] = on_axes(next, self.root * next_sine);
         }
-        ConicSeries { ellipse, factor, rate, rows }
+        series
     }
 
     /// Turns the first two lanes by the node, 0, or the argument of the pericentre, 1, which may grow with time.
@@ -248,10 +271,7 @@ impl Conic {
         let across = |[x, y, ..]: Row| [-y, x, 0.0, 0.0];
         if rate == 0.0 {
             let (sine, cosine) = self.still[angle];
-            for row in place.iter_mut().take(order) {
-                let [x, y, ..] = *row;
-                *row = [cosine * x - sine * y, sine * x + cosine * y, 0.0, 0.0];
-            }
+            place[..order].iter_mut().for_each(|row| *row = turned(*row, (sine, cosine)));
             return;
         }
         let phase = if angle == 0 { &self.node } else { &self.argument };
@@ -270,7 +290,10 @@ impl Conic {
     }
 }
 
-/// The series of a conic in the orbit's axes.
+/// The axes of the orbit's plane.
+const IN_PLANE: [Row; 2] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]];
+
+/// The series of a conic.
 struct ConicSeries {
     /// The position in semi-major axes.
     ellipse: Series,
@@ -278,22 +301,14 @@ struct ConicSeries {
     factor: Scalars,
     /// E′ = n/ρ.
     rate: Scalars,
-    /// x, sin E, ρ and k ρ.
+    /// x, sin E, ρ, and k ρ of order k.
     rows: Series,
 }
 
-impl ConicSeries {
-    /// The position times the factor.
-    #[inline(always)]
-    fn place<S: InstructionSet>(&self, simd: S, order: usize) -> Series {
-        let mut place = ZERO;
-        for (k, sum) in place.iter_mut().enumerate().take(order) {
-            for j in 0..=k {
-                add_scaled(simd, sum, self.factor[k - j], &self.ellipse[j]);
-            }
-        }
-        place
-    }
+/// A vector turned about axis 3.
+#[inline(always)]
+fn turned([x, y, z, _]: Row, (sine, cosine): (f64, f64)) -> Row {
+    [cosine * x - sine * y, sine * x + cosine * y, z, 0.0]
 }
 
 /// A vector in the orbit's plane, in axes along and beside the node and along inertial axis 3.
@@ -333,21 +348,37 @@ impl ConicPoint {
     }
 }
 
-/// Coefficient k of a product without the first coefficient of the rows: in two sums, which need not wait for each other.
+/// Coefficient k of E′ times the rows, of the factor times the rows, and of the factor times the position, each without the first coefficient of the second
+/// series: in two sums, which need not wait for each other.
 #[inline(always)]
-fn convolved<S: InstructionSet>(simd: S, scalars: &Scalars, rows: &Series, k: usize) -> Row {
-    let (mut one, mut other) = ([0.0; 4], [0.0; 4]);
+fn convolved<S: InstructionSet>(
+    simd: S,
+    [rate, factor]: [&Scalars; 2],
+    [rows, ellipse]: [&Series; 2],
+    k: usize,
+) -> [Row; 3] {
+    let (mut odd, mut even) = ([[0.0; 4]; 3], [[0.0; 4]; 3]);
     let mut j = 1;
     while j < k {
-        add_scaled(simd, &mut one, scalars[k - j], &rows[j]);
-        add_scaled(simd, &mut other, scalars[k - j - 1], &rows[j + 1]);
+        add_convolved(simd, &mut odd, ([rate, factor], k - j), [&rows[j], &ellipse[j]]);
+        add_convolved(simd, &mut even, ([rate, factor], k - j - 1), [&rows[j + 1], &ellipse[j + 1]]);
         j += 2;
     }
     if j == k {
-        add_scaled(simd, &mut one, scalars[0], &rows[j]);
+        add_convolved(simd, &mut odd, ([rate, factor], 0), [&rows[k], &ellipse[k]]);
     }
-    for lane in 0..4 {
-        one[lane] += other[lane];
-    }
-    one
+    std::array::from_fn(|row| std::array::from_fn(|lane| odd[row][lane] + even[row][lane]))
+}
+
+/// Adds the products with one coefficient of each series. A function, because compilers do not always inline closures.
+#[inline(always)]
+fn add_convolved<S: InstructionSet>(
+    simd: S,
+    sums: &mut [Row; 3],
+    ([rate, factor], at): ([&Scalars; 2], usize),
+    [row, place]: [&Row; 2],
+) {
+    add_scaled(simd, &mut sums[0], rate[at], row);
+    add_scaled(simd, &mut sums[1], factor[at], row);
+    add_scaled(simd, &mut sums[2], factor[at], place);
 }

@@ -8,15 +8,18 @@
 //!
 //! Other torques ([`super::torques`]) are added to ω′.
 //!
-//! Products of series are sums over four lanes at once: q with three permuted columns, the rows of R, cyclic neighbours of ω and s. The matrix of a quaternion
-//! of norm 1 + ε is R (1 + 2ε), so that rounding of the norm is a relative rounding error of the torque.
+//! Products of series are sums over four lanes at once: of q with each rate, with itself, with its cyclic neighbours and with w; of cyclic neighbours of ω and of s; and of
+//! r̃ with the cyclic diagonals of R. The matrix of a quaternion of norm 1 + ε is R (1 + 2ε), so that rounding of the norm is a relative rounding error of the torque.
 
 use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::path_series::PathSeries;
-use super::series::{Coefficients, ROWS, Row, Series, StateLanes, ZERO, add_product, add_scaled, largest};
+use super::products::{Factors, LAST, NEXT, ProductSums};
+use super::series::{
+    Coefficients, RECIPROCALS, ROWS, Row, Series, StateLanes, ZERO, add_product, added, four, largest, tiled,
+};
 use super::torques::{PolynomialSeries, Torques};
 use crate::input::scene::Scene;
 use crate::simd::instruction_set::{InstructionSet, Task};
@@ -112,123 +115,20 @@ pub(super) struct Start<const W: usize> {
     pub(super) rates: StateLanes<W>,
 }
 
-/// One coefficient of each series that is multiplied, in the lanes of the products. A product of two series is the sum of the first factors of one coefficient
-/// times the second factors of another.
-#[derive(Clone, Copy)]
-#[repr(align(64))]
-struct Factors<const W: usize> {
-    attitude: StateLanes<W>,
-    /// q times the unit quaternions of the axes, and the rates of the axes.
-    columns: [StateLanes<W>; 3],
-    rates: [StateLanes<W>; 3],
-    /// The next and the next but one of ω1, ω2, ω3.
-    neighbours: [StateLanes<W>; 2],
-    /// The factors of xy, xz, yz, and w.
-    mixed: [StateLanes<W>; 2],
-    scalar: StateLanes<W>,
-    /// The rows of R.
-    matrix: [StateLanes<W>; 3],
-}
-
-/// Sums of products of factors.
-struct ProductSums<const W: usize> {
-    turning: [StateLanes<W>; 3],
-    gyration: StateLanes<W>,
-    /// xx, yy, zz, ww; xy, xz, yz; xw, yw, zw.
-    squares: StateLanes<W>,
-    mixed: StateLanes<W>,
-    axial: StateLanes<W>,
-}
-
-impl<const W: usize> ProductSums<W> {
-    const ZERO: Self =
-        Self { turning: [[0.0; W]; 3], gyration: [0.0; W], squares: [0.0; W], mixed: [0.0; W], axial: [0.0; W] };
-
-    #[inline(always)]
-    fn add<S: InstructionSet>(&mut self, simd: S, one: &Factors<W>, other: &Factors<W>) {
-        for axis in 0..3 {
-            add_product(simd, &mut self.turning[axis], &one.columns[axis], &other.rates[axis]);
-        }
-        add_product(simd, &mut self.gyration, &one.neighbours[0], &other.neighbours[1]);
-        add_product(simd, &mut self.squares, &one.attitude, &other.attitude);
-        add_product(simd, &mut self.mixed, &one.mixed[0], &other.mixed[1]);
-        add_product(simd, &mut self.axial, &one.scalar, &other.attitude);
-    }
-
-    /// The rows of the matrix.
-    #[inline(always)]
-    fn matrix(&self) -> [StateLanes<W>; 3] {
-        let mut matrix = [[0.0; W]; 3];
-        for state in 0..W / 4 {
-            let at = 4 * state;
-            let [xx, yy, zz, ww] = four(&self.squares, at);
-            let [xy, xz, yz, _] = four(&self.mixed, at);
-            let [xw, yw, zw, _] = four(&self.axial, at);
-            put(&mut matrix[0], at, [ww + xx - yy - zz, 2.0 * (xy - zw), 2.0 * (xz + yw), 0.0]);
-            put(&mut matrix[1], at, [2.0 * (xy + zw), ww - xx + yy - zz, 2.0 * (yz - xw), 0.0]);
-            put(&mut matrix[2], at, [2.0 * (xz - yw), 2.0 * (yz + xw), ww - xx - yy + zz, 0.0]);
-        }
-        matrix
-    }
-}
-
-/// The lanes of one state.
-#[inline(always)]
-pub(super) fn four<const W: usize>(row: &StateLanes<W>, at: usize) -> Row {
-    [row[at], row[at + 1], row[at + 2], row[at + 3]]
-}
-
-#[inline(always)]
-fn put<const W: usize>(row: &mut StateLanes<W>, at: usize, [x, y, z, w]: Row) {
-    (row[at], row[at + 1], row[at + 2], row[at + 3]) = (x, y, z, w);
-}
-
-impl<const W: usize> Factors<W> {
-    const ZERO: Self = Self {
-        attitude: [0.0; W],
-        columns: [[0.0; W]; 3],
-        rates: [[0.0; W]; 3],
-        neighbours: [[0.0; W]; 2],
-        mixed: [[0.0; W]; 2],
-        scalar: [0.0; W],
-        matrix: [[0.0; W]; 3],
-    };
-
-    /// The products that depend on one coefficient of attitude and rates.
-    #[inline(always)]
-    fn set(&mut self, attitude: &StateLanes<W>, rates: &StateLanes<W>) {
-        self.attitude = *attitude;
-        for state in 0..W / 4 {
-            let at = 4 * state;
-            let [x, y, z, w] = four(attitude, at);
-            put(&mut self.columns[0], at, [w, z, -y, -x]);
-            put(&mut self.columns[1], at, [-z, w, x, -y]);
-            put(&mut self.columns[2], at, [y, -x, w, -z]);
-            put(&mut self.mixed[0], at, [x, x, y, 0.0]);
-            put(&mut self.mixed[1], at, [y, z, z, 0.0]);
-            put(&mut self.scalar, at, [w; 4]);
-            let [first, second, third, _] = four(rates, at);
-            put(&mut self.rates[0], at, [first; 4]);
-            put(&mut self.rates[1], at, [second; 4]);
-            put(&mut self.rates[2], at, [third; 4]);
-            put(&mut self.neighbours[0], at, [second, third, first, 0.0]);
-            put(&mut self.neighbours[1], at, [third, first, second, 0.0]);
-        }
-    }
-}
-
 /// The series of a step of one state, W = 4, or more.
 #[repr(align(64))]
 pub(super) struct Workspace<const W: usize> {
     pub(super) attitude: [StateLanes<W>; ROWS],
     pub(super) rates: [StateLanes<W>; ROWS],
-    /// First coefficients of the parts of Euler's equations: Σ s2 s3 and ω2 ω3.
-    pub(super) parts: [StateLanes<W>; 2],
+    /// The first coefficient of ω2 ω3, for rounding errors.
+    pub(super) gyration: StateLanes<W>,
     /// Sums of the sizes of the parts of the angular acceleration by the torques beside the gravity gradient, for rounding errors.
     pub(super) further: StateLanes<W>,
     polynomials: Vec<PolynomialSeries>,
     factors: [Factors<W>; ROWS],
     places: Vec<Series>,
+    /// The coefficients of r̃ of each body, and the next and the next but one of its components.
+    paths: Vec<[[StateLanes<W>; 3]; ROWS]>,
     /// The least radius of convergence of the series of a body, infinite without a body.
     pub(super) radius: f64,
     /// The next and the next but one of s1, s2, s3 of each body.
@@ -243,9 +143,10 @@ impl<const W: usize> Workspace<W> {
             polynomials: equations.torques.as_ref().map_or_else(Vec::new, |torques| torques.room(W / 4)),
             attitude: [[0.0; W]; ROWS],
             rates: [[0.0; W]; ROWS],
-            parts: [[0.0; W]; 2],
+            gyration: [0.0; W],
             factors: [Factors::ZERO; ROWS],
             places: vec![ZERO; bodies],
+            paths: vec![[[[0.0; W]; 3]; ROWS]; bodies],
             radius: f64::INFINITY,
             directions: vec![[[[0.0; W]; 2]; ROWS]; bodies],
         })
@@ -261,8 +162,12 @@ impl<const W: usize> Workspace<W> {
         order: usize,
     ) {
         self.radius = f64::INFINITY;
-        for (body, place) in equations.bodies.iter().zip(&mut self.places) {
+        for ((body, place), path) in equations.bodies.iter().zip(&mut self.places).zip(&mut self.paths) {
             self.radius = self.radius.min(body.series(simd.four(), (start.time, start.backward), order, place));
+            for (row, place) in path.iter_mut().zip(&*place).take(order) {
+                let [x, y, z, _] = *place;
+                *row = [tiled(place), tiled(&[y, z, x, 0.0]), tiled(&[z, x, y, 0.0])];
+            }
         }
         if let Some(torques) = &equations.torques {
             let time = (start.time, start.backward);
@@ -271,7 +176,7 @@ impl<const W: usize> Workspace<W> {
         self.attitude[0] = start.attitude;
         self.rates[0] = start.rates;
         for k in 0..order {
-            self.factors[k].set(&self.attitude[k], &self.rates[k]);
+            self.factors[k].set(simd, &self.attitude[k], &self.rates[k]);
             let mut sums = ProductSums::ZERO;
             // The newest coefficient comes last, so that the sums need not wait for it.
             for j in 1..k {
@@ -281,15 +186,15 @@ impl<const W: usize> Workspace<W> {
             if k > 0 {
                 sums.add(simd, &self.factors[k], &self.factors[0]);
             }
-            let torque = self.torque(simd, (k, sums.matrix()), &equations.strengths);
+            let torque = self.torque(simd, (k, sums.diagonals(simd)), &equations.strengths);
             if k == 0 {
-                self.parts = [torque, sums.gyration];
+                self.gyration = sums.gyration;
             }
-            let share = 1.0 / (k + 1) as f64;
-            let [one, two, three] = sums.turning;
+            let share = RECIPROCALS[k + 1];
+            let turned = sums.turned(simd);
             for lane in 0..W {
                 self.rates[k + 1][lane] = equations.factors[lane] * (torque[lane] - sums.gyration[lane]) * share;
-                self.attitude[k + 1][lane] = 0.5 * share * (one[lane] + two[lane] + three[lane]);
+                self.attitude[k + 1][lane] = 0.5 * share * turned[lane];
             }
             if let Some(torques) = &equations.torques {
                 self.add_further(torques, &equations.share, k, share);
@@ -303,7 +208,7 @@ impl<const W: usize> Workspace<W> {
             let at = 4 * state;
             let (rates, factors) = (&self.rates, &self.factors);
             let rate = |j: usize| Vector3::new(rates[j][at], rates[j][at + 1], rates[j][at + 2]);
-            let matrix = |j: usize| Matrix3::from_fn(|row, column| factors[j].matrix[row][at + column]);
+            let matrix = |j: usize| factors[j].matrix(state);
             let found = torques.coefficient((k, state), rate, matrix, &mut self.polynomials);
             for axis in 0..3 {
                 self.rates[k + 1][at + axis] += found[axis] * factor[at + axis] * share;
@@ -316,47 +221,61 @@ impl<const W: usize> Workspace<W> {
         }
     }
 
+    /// The sizes by which rounding errors of the gravity gradient over a step are measured: Σ |s| (|s2| + |s3|) γ and in turn. A direction s = Rᵀ r̃ has errors relative
+    /// to |s|, however small a component is. Where R and r̃ turn by x radians in a step, the coefficients of their product cancel: the terms that are added are as large
+    /// as those of eˣ, of which γ = (eˣ − 1)/x is the mean.
+    #[inline(always)]
+    pub(super) fn sizes(&self, length: f64) -> StateLanes<W> {
+        let norm = |row: &Row| row.iter().map(|part| part * part).sum::<f64>().sqrt();
+        let mut sizes = [0.0; W];
+        for (place, series) in self.places.iter().zip(&self.directions) {
+            let distance = norm(&place[0]);
+            let turned = length * (norm(&four(&self.rates[0], 0)) + norm(&place[1]) / distance);
+            let share = distance * turned.exp_m1() / turned.max(f64::MIN_POSITIVE);
+            let [one, other] = &series[0];
+            for lane in (0..W).filter(|lane| lane % 4 < 3) {
+                sizes[lane] += share * (one[lane].abs() + other[lane].abs());
+            }
+        }
+        sizes
+    }
+
     /// Coefficient k of Σ s2 s3 and in turn.
     #[inline(always)]
     fn torque<S: InstructionSet>(
         &mut self,
         simd: S,
-        (k, matrix): (usize, [StateLanes<W>; 3]),
+        (k, diagonals): (usize, [StateLanes<W>; 3]),
         strengths: &[StateLanes<W>],
     ) -> StateLanes<W> {
         let mut torque = [0.0; W];
         for (body, strength) in strengths.iter().enumerate() {
-            let (place, directions) = (&self.places[body], &mut self.directions[body]);
+            let (path, directions) = (&self.paths[body], &mut self.directions[body]);
             let (mut sums, mut products) = ([[0.0; W]; 3], [0.0; W]);
-            for j in 0..k {
-                for axis in 0..3 {
-                    add_scaled(simd, &mut sums[axis], place[k - j][axis], &self.factors[j].matrix[axis]);
-                }
-            }
             for j in 1..k {
+                for diagonal in 0..3 {
+                    let factors = &self.factors[j].diagonals[diagonal];
+                    add_product(simd, &mut sums[diagonal], &path[k - j][diagonal], factors);
+                }
                 add_product(simd, &mut products, &directions[j][0], &directions[k - j][1]);
             }
-            for axis in 0..3 {
-                add_scaled(simd, &mut sums[axis], place[0][axis], &matrix[axis]);
+            for diagonal in 0..3 {
+                if k > 0 {
+                    let factors = &self.factors[0].diagonals[diagonal];
+                    add_product(simd, &mut sums[diagonal], &path[k][diagonal], factors);
+                }
+                add_product(simd, &mut sums[diagonal], &path[0][diagonal], &diagonals[diagonal]);
             }
-            let newest = &mut directions[k];
-            for state in 0..W / 4 {
-                let at = 4 * state;
-                let [one, two, three] = &sums;
-                let first = one[at] + two[at] + three[at];
-                let second = one[at + 1] + two[at + 1] + three[at + 1];
-                let third = one[at + 2] + two[at + 2] + three[at + 2];
-                put(&mut newest[0], at, [second, third, first, 0.0]);
-                put(&mut newest[1], at, [third, first, second, 0.0]);
-            }
-            let [one, other] = directions[k];
+            let direction = added(simd, &added(simd, &sums[0], &sums[1]), &sums[2]);
+            let [one, other] = [simd.in_order::<NEXT, W>(&direction), simd.in_order::<LAST, W>(&direction)];
+            directions[k] = [one, other];
             add_product(simd, &mut products, &directions[0][0], &other);
             if k > 0 {
                 add_product(simd, &mut products, &one, &directions[0][1]);
             }
             add_product(simd, &mut torque, strength, &products);
         }
-        self.factors[k].matrix = matrix;
+        self.factors[k].diagonals = diagonals;
         torque
     }
 }
@@ -367,9 +286,9 @@ impl Workspace<4> {
         &self.directions[body][k]
     }
 
-    /// The rows of coefficient k of the matrix.
-    pub(super) fn matrix(&self, k: usize) -> &[Row; 3] {
-        &self.factors[k].matrix
+    /// Coefficient k of the matrix.
+    pub(super) fn matrix(&self, k: usize) -> Matrix3<f64> {
+        self.factors[k].matrix(0)
     }
 
     /// The series of the torques that are polynomials.

@@ -26,13 +26,19 @@ use crate::simd::instruction_set::{dispatch, dispatch_few};
 const FINEST: f64 = 1e-19;
 /// The largest one that is used.
 const COARSEST: f64 = 1e-6;
-/// Error at the end that the steps of an enlarged displacement may leave, before its division by the square of the phase \[rad\].
-const ENLARGED_ERROR: f64 = 3e-5;
+/// Relative error of an enlarged displacement that its steps may leave at the end, before its division by the square of the phase.
+const ENLARGED_ERROR: f64 = 1e-3;
 /// Truncation error of the first integration, over tolerance/(10 + phase²). A third of it costs 8 % more time, but fewer motions are integrated a second time.
 const CAREFUL: f64 = 0.06;
 /// ε₂ = FINER · ε₁ · tolerance / bound₁, with the truncation errors ε of both integrations and the error bound of the first.
 const FINER: f64 = 0.05;
+/// A second integration is made if it may meet the tolerance, or if the errors of the first exceed its rounding errors by this factor.
+const WORTHWHILE: f64 = 2.0;
 
+/// Steps of a few milliseconds.
+const BRIEF: f64 = 4e3;
+/// Steps in a radian of the fastest rate: two for each of four passages that add it to the rotation.
+const SPUN_UP: f64 = 8.0;
 /// Length of a step \[rad\], from below.
 const STEP: f64 = 0.65;
 
@@ -82,12 +88,13 @@ impl Integrated {
     fn of(problem: &Problem, scene: &Scene, stop: &AtomicBool) -> Result<Self, Error> {
         let tolerance = scene.asked_tolerance();
         let first = problem.first_error();
-        let (mut motion, mut profiles) = problem.solved(first, stop)?;
-        // Shorter steps leave the interpolation of a table as it is.
+        let (mut motion, mut profiles, share) = problem.solved(first, stop)?;
+        // Shorter steps leave the interpolation of a table as it is, and rounding errors.
         let error = motion.uninterpolated.unwrap_or(motion.error);
-        if error > tolerance && first > FINEST {
+        let useful = share > WORTHWHILE || error < share * tolerance;
+        if error > tolerance && useful && first > FINEST {
             let second = (FINER * first * tolerance / error).clamp(FINEST, first);
-            (motion, profiles) = problem.solved(second, stop)?;
+            (motion, profiles, _) = problem.solved(second, stop)?;
         }
         if motion.error < PI {
             return Ok(motion);
@@ -143,6 +150,16 @@ pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
     Some((FLOOR + SAFETY[0] * rates * phase, problem.most_steps()))
 }
 
+/// Whether an integration takes some milliseconds at most, even if passages of the pericentre spin the body up.
+pub(crate) fn is_brief(scene: &Scene) -> bool {
+    // A constant torque may spin it up to any rate.
+    scene.asked_torques().is_empty()
+        && Problem::new(scene, "").is_ok_and(|problem| {
+            let longest = problem.ends[0].0.abs().max(problem.ends[1].0.abs());
+            problem.most_steps() + SPUN_UP * problem.fastest * longest < BRIEF
+        })
+}
+
 /// The cost of a verification of a motion under torques over the span of its scene; `None` without a span.
 pub(crate) fn verification_cost(scene: &Scene) -> Option<VerificationCost> {
     let polynomials = scene.asked_torques().iter().filter(|torque| matches!(torque, Torque::Polynomial(_))).count();
@@ -165,7 +182,8 @@ pub(super) struct Problem {
     pub(super) rates: Row,
     pub(super) exponent: i32,
     tolerance: f64,
-    /// The largest of the secular rates.
+    /// The largest of all rates, that at the pericentre among them, and that of the secular ones.
+    fastest: f64,
     secular: f64,
     /// From the epoch, in double-double and the unit of the integration.
     ends: [(f64, f64); 2],
@@ -222,6 +240,7 @@ impl Problem {
             rates: [rates.x, rates.y, rates.z, 0.0],
             exponent,
             tolerance: scene.asked_tolerance(),
+            fastest: scaled(fastest, -exponent),
             secular: scaled(secular, -exponent),
             ends: [end(start), end(stop)],
             reach: [start - epoch, stop - epoch],
@@ -258,7 +277,7 @@ impl Problem {
     }
 
     /// The relative truncation error of the first integration: those of the rates add up over the steps, and their effect on the angle over time.
-    fn first_error(&self) -> f64 {
+    pub(super) fn first_error(&self) -> f64 {
         let phase = self.phase();
         (CAREFUL * self.tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST)
     }
@@ -276,15 +295,16 @@ impl Problem {
         Integrated { equations: self.equations.clone(), order, sides, exponent, reach, error, uninterpolated, torques }
     }
 
-    /// By steps of this relative error, with the error bounds before and after the epoch.
-    fn solved(&self, error: f64, stop: &AtomicBool) -> Result<(Integrated, [Profile; 2]), Error> {
+    /// By steps of this relative error, with the error bounds before and after the epoch, and the errors of all steps relative to those by rounding alone.
+    fn solved(&self, error: f64, stop: &AtomicBool) -> Result<(Integrated, [Profile; 2], f64), Error> {
         let precision = Precision::of(error);
         let mut sides = [Side::default(), Side::default()];
         let mut profiles = [Profile::new(), Profile::new()];
-        let (mut bound, mut uninterpolated) = (FLOOR, FLOOR);
+        let (mut bound, mut uninterpolated, mut share) = (FLOOR, FLOOR, 1.0_f64);
         for side in 0..2 {
             let backward = side == 0;
             let (kept, runner) = self.steps(side, precision, stop)?;
+            share = runner.systematic_share().into_iter().fold(share, f64::max);
             if kept.steps.len() > 1 {
                 let largest = |profile: &Profile| profile.last().map_or(FLOOR, |(_, error)| *error);
                 let mut profile = self.measured(&kept.steps, (precision, &runner), backward, stop)?;
@@ -299,11 +319,11 @@ impl Problem {
         }
         let dominated = bound > self.tolerance && 2.0 * uninterpolated < bound;
         let bounds = (bound, dominated.then_some(uninterpolated));
-        Ok((self.motion(precision.order, sides, bounds), profiles))
+        Ok((self.motion(precision.order, sides, bounds), profiles, share))
     }
 
-    /// The farthest of the ends of 1, 2, 4, … steps at which an integration up to there meets the tolerance. The bound of a longer integration has the errors of all
-    /// its steps from the epoch on: errors made at a pericentre would hide that nothing is lost before it.
+    /// The end of the last of so many steps, to an eighth of their number, at which an integration up to there meets the tolerance. The bound of a longer integration
+    /// has the errors of all its steps from the epoch on: errors made at a pericentre would hide that nothing is lost before it.
     fn held(
         &self,
         side: usize,
@@ -311,17 +331,24 @@ impl Problem {
         (error, tolerance): (f64, f64),
         stop: &AtomicBool,
     ) -> Result<f64, Error> {
-        let mut held = 0.0;
-        for count in (0..usize::BITS).map(|power| 1 << power).take_while(|count| *count < steps.len()) {
+        let holds = |count: usize| -> Result<bool, Error> {
+            let Some(step) = steps.get(count) else { return Ok(false) };
             let mut ends = [(0.0, 0.0); 2];
-            ends[side] = steps[count].time;
+            ends[side] = step.time;
             let shorter = Self { equations: self.equations.clone(), ends, ..*self };
-            if shorter.solved(error, stop)?.0.error > tolerance {
-                break;
-            }
-            held = steps[count].time.0;
+            Ok(shorter.solved(error, stop)?.0.error <= tolerance)
+        };
+        let (mut held, mut more) = (0, 1);
+        while holds(held + more)? {
+            held += more;
+            more = held;
         }
-        Ok(held)
+        for part in [2, 4, 8] {
+            if held >= part && holds(held + held / part)? {
+                held += held / part;
+            }
+        }
+        Ok(steps[held].time.0)
     }
 
     /// The error bound of the steps in one direction, without the interpolation of tables.
@@ -333,7 +360,7 @@ impl Problem {
         stop: &AtomicBool,
     ) -> Result<Profile, Error> {
         let phase = self.phase();
-        let coarse = Precision::of((ENLARGED_ERROR / (10.0 + phase * phase)).clamp(FINEST, COARSEST));
+        let coarse = Precision::of((ENLARGED_ERROR / (10.0 + phase * phase)).max(FINEST));
         let enlarged = MeasuredSteps {
             equations: &self.equations,
             precision: coarse,

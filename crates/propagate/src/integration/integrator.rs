@@ -6,8 +6,8 @@ use std::sync::atomic::AtomicBool;
 
 use andoyer_double::two_sum;
 
-use super::expansion::{Equations, Start, Workspace, four};
-use super::series::{Coefficients, MAX, Row, StateLanes, largest};
+use super::expansion::{Equations, Start, Workspace};
+use super::series::{Coefficients, MAX, Row, StateLanes, four, largest};
 use crate::error::Error;
 use crate::simd::halt::going;
 use crate::simd::instruction_set::{InstructionSet, Task};
@@ -114,12 +114,15 @@ impl<const W: usize> Runner<W> {
         }
     }
 
-    /// Moves all states towards one state: their distances from it are multiplied by a factor.
-    pub(super) fn bring_nearer(&mut self, to: &Start<4>, part: f64) {
+    /// Moves the mean of the states to one state, and multiplies their distances from the mean by a factor.
+    pub(super) fn move_to(&mut self, to: &Start<4>, factor: f64) {
+        let share = 4.0 / W as f64;
+        let mean = |lanes: &StateLanes<W>, lane: usize| share * (lane..W).step_by(4).map(|at| lanes[at]).sum::<f64>();
+        let means: [[f64; 2]; 4] = std::array::from_fn(|lane| [mean(&self.attitude, lane), mean(&self.rates, lane)]);
         for lane in 0..W {
-            let (attitude, rate) = (to.attitude[lane % 4], to.rates[lane % 4]);
-            self.attitude[lane] = attitude + part * (self.attitude[lane] - attitude);
-            self.rates[lane] = rate + part * (self.rates[lane] - rate);
+            let [attitude, rate] = means[lane % 4];
+            self.attitude[lane] = to.attitude[lane % 4] + factor * (self.attitude[lane] - attitude);
+            self.rates[lane] = to.rates[lane % 4] + factor * (self.rates[lane] - rate);
         }
         for at in (0..W).step_by(4) {
             let norm = four(&self.attitude, at).iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -128,8 +131,8 @@ impl<const W: usize> Runner<W> {
     }
 
     /// The attitude of each state.
-    pub(super) fn attitudes(&self) -> impl Iterator<Item = Row> + '_ {
-        (0..W).step_by(4).map(|at| four(&self.attitude, at))
+    pub(super) fn attitudes<const STATES: usize>(&self) -> [Row; STATES] {
+        std::array::from_fn(|state| four(&self.attitude, 4 * state))
     }
 
     /// Estimates of the errors of attitude \[rad\] and rates that all steps leave together.
@@ -217,8 +220,8 @@ impl<const W: usize> Runner<W> {
         let omitted = OMITTED.max(length / (workspace.radius - length));
         self.systematic[0] += 2.0 * omitted * largest(&workspace.attitude[order]) * last;
         self.systematic[1] += omitted * largest(&workspace.rates[order]) * last;
-        let [torque, gyration] = &workspace.parts;
-        let by_rates = ROUNDING[0] * largest(torque) + ROUNDING[1] * largest(gyration);
+        let sizes = workspace.sizes(length);
+        let by_rates = ROUNDING[0] * largest(&sizes) + ROUNDING[1] * largest(&workspace.gyration);
         let rate = (by_rates * largest(&equations.factors) + ROUNDING[0] * largest(&workspace.further)) * length;
         let angle = ROUNDING[1] * largest(&self.rates) * length;
         self.rounded[0] += angle * angle;

@@ -22,6 +22,16 @@ pub(super) type Coefficients = [f64; 7];
 /// The power of the distance in the series of a body's gravity gradient.
 pub(super) const GRAVITY: f64 = -2.5;
 
+/// 1/k, and 0.
+pub(super) const RECIPROCALS: [f64; ROWS + 1] = {
+    let (mut reciprocals, mut k) = ([0.0; ROWS + 1], 1);
+    while k <= ROWS {
+        reciprocals[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    reciprocals
+};
+
 /// A series of zeros.
 pub(super) const ZERO: Series = [[0.0; 4]; ROWS];
 
@@ -48,6 +58,49 @@ pub(super) fn add_product<S: Simd, const W: usize>(
     for i in 0..W / S::F64_LANES {
         sums[i] = simd.mul_add_f64s(ones[i], others[i], sums[i]);
     }
+}
+
+/// one + other, lane by lane.
+#[inline(always)]
+pub(super) fn added<S: Simd, const W: usize>(simd: S, one: &StateLanes<W>, other: &StateLanes<W>) -> StateLanes<W> {
+    let mut sum = *one;
+    let ((sums, _), (others, _)) = (S::as_mut_simd_f64s(&mut sum), S::as_simd_f64s(other));
+    for i in 0..W / S::F64_LANES {
+        sums[i] = simd.add_f64s(sums[i], others[i]);
+    }
+    sum
+}
+
+/// one − other, lane by lane.
+#[inline(always)]
+pub(super) fn subtracted<S: Simd, const W: usize>(
+    simd: S,
+    one: &StateLanes<W>,
+    other: &StateLanes<W>,
+) -> StateLanes<W> {
+    let mut sum = *one;
+    let ((sums, _), (others, _)) = (S::as_mut_simd_f64s(&mut sum), S::as_simd_f64s(other));
+    for i in 0..W / S::F64_LANES {
+        sums[i] = simd.sub_f64s(sums[i], others[i]);
+    }
+    sum
+}
+
+/// The same four lanes for each state.
+pub(super) const fn tiled<const W: usize>(row: &Row) -> StateLanes<W> {
+    let mut lanes = [0.0; W];
+    let mut lane = 0;
+    while lane < W {
+        lanes[lane] = row[lane % 4];
+        lane += 1;
+    }
+    lanes
+}
+
+/// The lanes of one state.
+#[inline(always)]
+pub(super) fn four<const W: usize>(row: &StateLanes<W>, at: usize) -> Row {
+    [row[at], row[at + 1], row[at + 2], row[at + 3]]
 }
 
 /// The largest magnitude in a row.

@@ -28,7 +28,7 @@ use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::numerics::scaling::scaled;
 use crate::simd::halt::going;
-use crate::simd::instruction_set::{InstructionSet, Task, dispatch_few};
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 
 /// About how many steps the motion of a scene takes over its span; infinite if it cannot be integrated.
 pub(crate) fn steps(scene: &Scene) -> f64 {
@@ -70,7 +70,7 @@ pub(crate) fn fill(
             outputs: outputs.each_mut().map(|output| &mut **output),
             stop,
         };
-        dispatch_few(Arch::new(), variation)?;
+        dispatch(Arch::new(), variation)?;
     }
     Ok(())
 }
@@ -123,11 +123,11 @@ impl Task for Variation<'_> {
                 blocks.iter_mut().for_each(|block| block.advance(length, order));
             }
             start = runner.time;
-            let whole = runner.expand(simd, (equations, precision), &mut workspace);
-            linear.set(simd, equations, &workspace, order);
+            let whole = runner.expand(simd.four(), (equations, precision), &mut workspace);
+            linear.set(simd.four(), equations, &workspace, order);
             let mut length = whole;
             for block in &mut blocks {
-                block.set_forces(simd, (equations, &workspace, &linear), (start, backward), order);
+                block.set_forces(simd.four(), (equations, &workspace, &linear), (start, backward), order);
                 block.expand(simd, &linear, order);
                 length = length.min(block.longest(whole, order));
             }

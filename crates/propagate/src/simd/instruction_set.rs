@@ -26,6 +26,12 @@ pub(crate) trait InstructionSet: Simd {
     /// (sine, cosine) of the angle plus as many quarter turns as the lowest two bits of `quarters` say.
     fn turned(self, sine: Self::f64s, cosine: Self::f64s, quarters: Self::u64s) -> (Self::f64s, Self::f64s);
 
+    /// Each four lanes of a row in another order, by two bits a lane from the lowest on.
+    #[inline(always)]
+    fn in_order<const ORDER: i32, const W: usize>(self, row: &[f64; W]) -> [f64; W] {
+        std::array::from_fn(|lane| row[lane / 4 * 4 + (ORDER as usize >> (2 * (lane % 4)) & 3)])
+    }
+
     /// Four columns to rows in memory order.
     #[inline(always)]
     fn fours(self, columns: [Self::f64s; 4]) -> [Self::f64s; 4] {
@@ -186,6 +192,15 @@ mod x86 {
         }
 
         #[inline(always)]
+        fn in_order<const ORDER: i32, const W: usize>(self, row: &[f64; W]) -> [f64; W] {
+            let mut out = [0.0; W];
+            for (to, from) in Self::as_mut_simd_f64s(&mut out).0.iter_mut().zip(Self::as_simd_f64s(row).0) {
+                *to = cast(self.avx2._mm256_permute4x64_pd::<ORDER>(cast(*from)));
+            }
+            out
+        }
+
+        #[inline(always)]
         fn fours(self, columns: [f64x4; 4]) -> [f64x4; 4] {
             let [x, y, z, w] = columns;
             let (x, y, z, w, avx) = (cast(x), cast(y), cast(z), cast(w), self.avx);
@@ -235,6 +250,15 @@ mod x86 {
             let s_sign = self.and_u64s(self.shl_const_u64x8::<62>(quarters), top);
             let c_sign = self.and_u64s(self.shl_const_u64x8::<62>(next), top);
             (self.xor_f64s(s, cast(s_sign)), self.xor_f64s(c, cast(c_sign)))
+        }
+
+        #[inline(always)]
+        fn in_order<const ORDER: i32, const W: usize>(self, row: &[f64; W]) -> [f64; W] {
+            let mut out = [0.0; W];
+            for (to, from) in Self::as_mut_simd_f64s(&mut out).0.iter_mut().zip(Self::as_simd_f64s(row).0) {
+                *to = cast(self.avx512f._mm512_permutex_pd::<ORDER>(cast(*from)));
+            }
+            out
         }
 
         #[inline(always)]

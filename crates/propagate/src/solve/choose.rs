@@ -7,7 +7,7 @@ use super::{averaged, integrated, libration};
 use crate::error::{Error, Kind};
 use crate::input::options::{Averaging, Level, Method};
 use crate::input::scene::Scene;
-use crate::integration::integrated::prospect;
+use crate::integration::integrated::{is_brief, prospect};
 use crate::integration::integrator::MOST_STEPS;
 use crate::motion::plan::{ROUNDED_TOLERANCE, bound_in_words, in_ascii};
 use crate::motion::solved::Motion;
@@ -30,6 +30,12 @@ impl Scene {
             Method::Auto => beyond_theory(self).is_some(),
             Method::Series | Method::Closed => false,
         }
+    }
+
+    /// Whether the scene needs an integration ([`Scene::needs_integration`]) of a few milliseconds, which nobody waits for or stops.
+    #[must_use]
+    pub fn is_brief(&self) -> bool {
+        self.needs_integration() && is_brief(self)
     }
 }
 

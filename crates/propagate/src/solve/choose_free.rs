@@ -16,6 +16,12 @@ impl Scene {
     pub fn needs_integration(&self) -> bool {
         false
     }
+
+    /// Whether the scene needs a short integration: never, without the feature `torques`.
+    #[must_use]
+    pub fn is_brief(&self) -> bool {
+        false
+    }
 }
 
 /// The motion of a scene about principal axes.
