@@ -10,7 +10,7 @@ use pulp::Arch;
 use super::expansion::{StepExpansion, Workspace};
 use super::integrated::Integrated;
 use super::integrator::{Side, Step};
-use super::series::Coefficients;
+use super::series::{Coefficients, norm};
 use crate::motion::forced::{End, Forced};
 use crate::numerics::scaling::scaled;
 use crate::simd::halt::Halt;
@@ -61,7 +61,7 @@ impl<'a> Cursor<'a> {
         }
         let since = (time.0 - start.time.0) + (time.1 - start.time.1);
         let (attitude, rates) = self.workspace.at(since, *order);
-        let norm = attitude.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let norm = norm(&attitude);
         let [first, second, third, _] = rates.map(|rate| scaled(rate, *exponent));
         (attitude.map(|x| x / norm), [first, second, third])
     }

@@ -18,7 +18,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::path_series::PathSeries;
 use super::products::{Factors, LAST, NEXT, ProductSums};
 use super::series::{
-    Coefficients, RECIPROCALS, ROWS, Row, Series, StateLanes, ZERO, add_product, added, four, largest, tiled,
+    Coefficients, RECIPROCALS, ROWS, Row, Series, StateLanes, ZERO, add_product, added, four, largest, norm, tiled,
 };
 use super::torques::{PolynomialSeries, Torques};
 use crate::input::scene::Scene;
@@ -221,17 +221,16 @@ impl<const W: usize> Workspace<W> {
         }
     }
 
-    /// The sizes by which rounding errors of the gravity gradient over a step are measured: Σ |s| (|s2| + |s3|) γ and in turn. A direction s = Rᵀ r̃ has errors relative
-    /// to |s|, however small a component is. Where R and r̃ turn by x radians in a step, the coefficients of their product cancel: the terms that are added are as large
-    /// as those of eˣ, of which γ = (eˣ − 1)/x is the mean.
+    /// Sizes of the gravity gradient for its rounding errors over a step: Σ 2 |s| (|s2| + |s3|) eˣ and in turn. A direction s = Rᵀ r̃ has errors relative to |s|, however
+    /// small a component is. R and r̃ turn by x radians in a step. Where they turn together the coefficients of s are small, but they are sums of terms as large as
+    /// those of eˣ. The factor is 2 because R is quadratic in q.
     #[inline(always)]
     pub(super) fn sizes(&self, length: f64) -> StateLanes<W> {
-        let norm = |row: &Row| row.iter().map(|part| part * part).sum::<f64>().sqrt();
         let mut sizes = [0.0; W];
         for (place, series) in self.places.iter().zip(&self.directions) {
             let distance = norm(&place[0]);
-            let turned = length * (norm(&four(&self.rates[0], 0)) + norm(&place[1]) / distance);
-            let share = distance * turned.exp_m1() / turned.max(f64::MIN_POSITIVE);
+            let turned = length * (norm(&four(&self.rates[0], 0)) + norm(&place[1]) / distance.max(f64::MIN_POSITIVE));
+            let share = 2.0 * distance * turned.exp();
             let [one, other] = &series[0];
             for lane in (0..W).filter(|lane| lane % 4 < 3) {
                 sizes[lane] += share * (one[lane].abs() + other[lane].abs());

@@ -37,7 +37,7 @@ const WORTHWHILE: f64 = 2.0;
 
 /// Steps of a few milliseconds.
 const BRIEF: f64 = 4e3;
-/// Steps in a radian of the fastest rate: two for each of four passages that add it to the rotation.
+/// Steps in a radian of the fastest rate, if passages of the pericentre have made the rotation four times as fast.
 const SPUN_UP: f64 = 8.0;
 /// Length of a step \[rad\], from below.
 const STEP: f64 = 0.65;
@@ -182,8 +182,9 @@ pub(super) struct Problem {
     pub(super) rates: Row,
     pub(super) exponent: i32,
     tolerance: f64,
-    /// The largest of all rates, that at the pericentre among them, and that of the secular ones.
+    /// The largest of all rates, that at the pericentre among them.
     fastest: f64,
+    /// The largest of the secular rates.
     secular: f64,
     /// From the epoch, in double-double and the unit of the integration.
     ends: [(f64, f64); 2],
@@ -322,8 +323,8 @@ impl Problem {
         Ok((self.motion(precision.order, sides, bounds), profiles, share))
     }
 
-    /// The end of the last of so many steps, to an eighth of their number, at which an integration up to there meets the tolerance. The bound of a longer integration
-    /// has the errors of all its steps from the epoch on: errors made at a pericentre would hide that nothing is lost before it.
+    /// The latest time at which an integration up to there meets the tolerance. The number of its steps is doubled, and then found to an eighth. The bound of a longer
+    /// integration has the errors of all its steps from the epoch on: errors made at a pericentre would hide that nothing is lost before it.
     fn held(
         &self,
         side: usize,
@@ -343,9 +344,9 @@ impl Problem {
             held += more;
             more = held;
         }
-        for part in [2, 4, 8] {
-            if held >= part && holds(held + held / part)? {
-                held += held / part;
+        for more in [2, 4, 8].map(|part| held / part) {
+            if more > 0 && holds(held + more)? {
+                held += more;
             }
         }
         Ok(steps[held].time.0)

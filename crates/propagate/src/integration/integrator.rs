@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use andoyer_double::two_sum;
 
 use super::expansion::{Equations, Start, Workspace};
-use super::series::{Coefficients, MAX, Row, StateLanes, four, largest};
+use super::series::{Coefficients, MAX, Row, StateLanes, four, largest, norm};
 use crate::error::Error;
 use crate::simd::halt::going;
 use crate::simd::instruction_set::{InstructionSet, Task};
@@ -125,7 +125,7 @@ impl<const W: usize> Runner<W> {
             self.rates[lane] = to.rates[lane % 4] + factor * (self.rates[lane] - rate);
         }
         for at in (0..W).step_by(4) {
-            let norm = four(&self.attitude, at).iter().map(|x| x * x).sum::<f64>().sqrt();
+            let norm = norm(&four(&self.attitude, at));
             self.attitude[at..at + 4].iter_mut().for_each(|x| *x /= norm);
         }
     }
@@ -349,7 +349,7 @@ fn spun_up(
     target: (f64, f64),
     (since, steps): (Option<(f64, usize)>, usize),
 ) -> Result<Option<(f64, usize)>, Error> {
-    let rate = runner.rates.iter().map(|rate| rate * rate).sum::<f64>().sqrt();
+    let rate = norm(&runner.rates);
     let needed = (target.0 - runner.time.0).abs() * rate / LONGEST_STEP;
     if needed <= HOPELESS * MOST_STEPS as f64 {
         return Ok(None);

@@ -60,9 +60,10 @@ impl<const W: usize> ProductSums<W> {
         [subtracted(simd, &own, &others), added(simd, &mixed, &axial), simd.in_order::<LAST, W>(&above)]
     }
 
-    /// q ω, from q ω1, q ω2 and q ω3.
     const SIGNS: [StateLanes<W>; 3] =
         [tiled(&[1.0, 1.0, -1.0, -1.0]), tiled(&[-1.0, 1.0, 1.0, -1.0]), tiled(&[1.0, -1.0, 1.0, -1.0])];
+
+    /// q ω, from q ω1, q ω2 and q ω3: the lanes of each in another order, with signs.
     #[inline(always)]
     pub(super) fn turned<S: InstructionSet>(&self, simd: S) -> StateLanes<W> {
         let mut sum = [0.0; W];

@@ -22,7 +22,7 @@ pub(super) type Coefficients = [f64; 7];
 /// The power of the distance in the series of a body's gravity gradient.
 pub(super) const GRAVITY: f64 = -2.5;
 
-/// 1/k, and 0.
+/// 1/k at the index k, and 0 at 0.
 pub(super) const RECIPROCALS: [f64; ROWS + 1] = {
     let (mut reciprocals, mut k) = ([0.0; ROWS + 1], 1);
     while k <= ROWS {
@@ -86,7 +86,7 @@ pub(super) fn subtracted<S: Simd, const W: usize>(
     sum
 }
 
-/// The same four lanes for each state.
+/// Four lanes, repeated for each state.
 pub(super) const fn tiled<const W: usize>(row: &Row) -> StateLanes<W> {
     let mut lanes = [0.0; W];
     let mut lane = 0;
@@ -101,6 +101,11 @@ pub(super) const fn tiled<const W: usize>(row: &Row) -> StateLanes<W> {
 #[inline(always)]
 pub(super) fn four<const W: usize>(row: &StateLanes<W>, at: usize) -> Row {
     [row[at], row[at + 1], row[at + 2], row[at + 3]]
+}
+
+/// The root of the sum of squares.
+pub(super) fn norm(row: &[f64]) -> f64 {
+    row.iter().map(|part| part * part).sum::<f64>().sqrt()
 }
 
 /// The largest magnitude in a row.
