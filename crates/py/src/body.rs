@@ -5,6 +5,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
+use crate::values::immutable;
 use crate::{array, error};
 
 /// The arguments of `pickle` for a body with its own axes: a function and its arguments.
@@ -50,6 +51,8 @@ impl PartialEq for Body {
         self.body == other.body
     }
 }
+
+immutable!(Body);
 
 #[pymethods]
 impl Body {
@@ -298,14 +301,6 @@ impl Body {
         let rows = self.body.inertia().map(|row| PyTuple::new(py, row));
         let [first, second, third] = rows;
         ((first?, second?, third?), self.body.name()).into_pyobject(py)?.hash()
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     /// Rebuilds a body for `pickle`.

@@ -18,6 +18,7 @@ use crate::error;
 use crate::expression::{Expression, actions, real};
 use crate::form::rounded;
 use crate::progress;
+use crate::values::immutable;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
@@ -70,6 +71,8 @@ impl DrivenNormalForm {
         real(py, &image, &space)
     }
 }
+
+immutable!(DrivenNormalForm);
 
 #[pymethods]
 impl DrivenNormalForm {
@@ -379,14 +382,6 @@ impl DrivenNormalForm {
     /// Pickled as its JSON text.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
         Ok((slf.get_type().getattr("from_json")?, (slf.get().to_json()?,)))
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __repr__(&self) -> String {

@@ -40,6 +40,7 @@ mod scene;
 mod scene_class;
 mod tabulated;
 mod torque;
+mod values;
 mod verification;
 
 /// The compiled core of the package `andoyer`, which re-exports all its names.

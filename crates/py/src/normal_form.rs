@@ -14,6 +14,7 @@ use crate::computing::detached;
 use crate::error;
 use crate::order::order;
 use crate::progress;
+use crate::values::immutable;
 
 /// The normal form of the free rigid body to any order: exact, and symbolic in the triaxiality β (theory §4, §6).
 ///
@@ -46,6 +47,8 @@ use crate::progress;
 #[pyclass(frozen, eq, hash, module = "andoyer")]
 #[derive(PartialEq, Eq, Hash)]
 pub(crate) struct NormalForm(andoyer_series::NormalForm);
+
+immutable!(NormalForm);
 
 #[pymethods]
 impl NormalForm {
@@ -294,14 +297,6 @@ impl NormalForm {
 
     fn __repr__(&self) -> String {
         format!("NormalForm(order={})", self.0.order())
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     /// Pickled as its JSON text.

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::Times;
+use crate::values::immutable;
 use crate::{array, error, foreign};
 
 /// The names of the elements after the mean motion and the eccentricity, in the order of the core's.
@@ -66,6 +67,8 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 #[pyclass(frozen, eq, module = "andoyer")]
 #[derive(PartialEq)]
 pub(crate) struct Orbit(pub(crate) andoyer_propagate::Orbit);
+
+immutable!(Orbit);
 
 #[pymethods]
 impl Orbit {
@@ -338,14 +341,6 @@ impl Orbit {
         let [attraction, length] = [self.0.asked_attraction(), self.0.asked_semi_major_axis()];
         let rest = [node_rate, pericentre_rate, attraction.unwrap_or(0.0), length.unwrap_or(0.0)];
         PyTuple::new(py, self.0.elements().into_iter().chain(rest).collect::<Vec<_>>())?.hash()
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {

@@ -1,11 +1,10 @@
 //! `andoyer.Plan`.
 
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 
-use crate::error::InternalError;
+use crate::values::record;
 
 /// The method, order, error bound and other facts about a motion, from `Motion.plan`. ``str(plan)`` is a table.
 ///
@@ -20,6 +19,8 @@ use crate::error::InternalError;
 #[pyclass(frozen, eq, module = "andoyer")]
 #[derive(PartialEq)]
 pub(crate) struct Plan(pub(crate) andoyer_propagate::Plan);
+
+record!(Plan, "plan");
 
 #[pymethods]
 impl Plan {
@@ -133,31 +134,6 @@ impl Plan {
     #[getter]
     fn skipped(&self) -> Vec<String> {
         self.0.skipped().to_vec()
-    }
-
-    /// The text of the plan for `pickle`.
-    #[staticmethod]
-    fn _restored(text: &str) -> PyResult<Self> {
-        toml::from_str(text)
-            .map(Self)
-            .map_err(|error| PyValueError::new_err(format!("not the text of a plan: {error}")))
-    }
-
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-        let text = toml::to_string(&self.0).map_err(|error| InternalError::new_err(error.to_string()))?;
-        Ok((py.get_type::<Self>().getattr("_restored")?, (text,)))
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
-    }
-
-    fn __str__(&self) -> String {
-        self.0.to_string()
     }
 
     fn __repr__(&self) -> String {

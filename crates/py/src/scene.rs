@@ -18,6 +18,7 @@ use crate::motion::Motion;
 use crate::orbit::{self};
 use crate::scene_class::Scene;
 use crate::torque::{self, Torque};
+use crate::values::immutable;
 use crate::{array, error};
 
 pub(crate) mod arguments;
@@ -25,6 +26,8 @@ pub(crate) mod arguments;
 use arguments::{
     disturbing_bodies, disturbing_body, doubt, epoch, not_a_body, precession, rotation, tolerance, with_options,
 };
+
+immutable!(Scene);
 
 #[pymethods]
 impl Scene {
@@ -378,14 +381,6 @@ impl Scene {
         let keywords = PyTuple::new(py, keywords)?;
         let [attitude, rates] = [PyTuple::new(py, numbers.0)?, PyTuple::new(py, numbers.1)?];
         (self.body().__hash__(py)?, attitude, rates, keywords).into_pyobject(py)?.hash()
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {

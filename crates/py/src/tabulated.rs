@@ -9,6 +9,7 @@ use pyo3::types::PyTuple;
 use crate::array::{constant, constant_rows, number, numbers_of, vectors};
 use crate::error;
 use crate::foreign;
+use crate::values::immutable;
 
 /// A table of the position of a disturbing body relative to the rotating body. Only the integrated method uses it.
 ///
@@ -42,6 +43,8 @@ use crate::foreign;
 #[pyclass(frozen, eq, module = "andoyer")]
 #[derive(PartialEq)]
 pub(crate) struct TabulatedOrbit(pub(crate) Arc<andoyer_propagate::TabulatedOrbit>);
+
+immutable!(TabulatedOrbit);
 
 #[pymethods]
 impl TabulatedOrbit {
@@ -101,14 +104,6 @@ impl TabulatedOrbit {
         let times = self.0.times();
         let numbers = [times.len() as f64, times[0], times[times.len() - 1], self.0.gm()];
         PyTuple::new(py, numbers.into_iter().chain(self.0.positions()[0]).collect::<Vec<_>>())?.hash()
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {

@@ -10,6 +10,7 @@ use crate::error::{self, InternalError};
 use crate::orbit::Orbit;
 use crate::scene::arguments::kind;
 use crate::tabulated::TabulatedOrbit;
+use crate::values::immutable;
 
 /// A torque beside the gravity gradient, in body axes. It is made by one of the class methods below. A scene with torques is integrated: it needs a span.
 ///
@@ -25,6 +26,8 @@ use crate::tabulated::TabulatedOrbit;
 #[pyclass(frozen, eq, module = "andoyer")]
 #[derive(PartialEq)]
 pub(crate) struct Torque(pub(crate) Inner);
+
+immutable!(Torque);
 
 #[pymethods]
 impl Torque {
@@ -182,14 +185,6 @@ impl Torque {
 
     fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
         PyTuple::new(py, [self.kind().to_owned(), self.__repr__(py)?])?.hash()
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

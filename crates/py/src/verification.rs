@@ -3,14 +3,14 @@
 use andoyer_propagate::verification::{self, VerifyOptions};
 use andoyer_series::error::Kind;
 use numpy::PyArray1;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::array;
 use crate::computing::interruptible;
-use crate::error::{self, InternalError};
+use crate::error;
 use crate::motion::Motion;
 use crate::order::whole_number;
+use crate::values::record;
 
 #[pymethods]
 impl Motion {
@@ -92,6 +92,8 @@ impl Motion {
 #[derive(PartialEq)]
 pub(crate) struct Verification(verification::Verification);
 
+record!(Verification, "verification");
+
 #[pymethods]
 impl Verification {
     /// The times at which the attitudes were compared, shape (n,), read-only. If the epoch of the scene is a Time, they are TDB seconds since J2000.
@@ -134,31 +136,6 @@ impl Verification {
     #[getter]
     fn refuted(&self) -> bool {
         self.0.refuted()
-    }
-
-    /// The text of the verification for `pickle`.
-    #[staticmethod]
-    fn _restored(text: &str) -> PyResult<Self> {
-        toml::from_str(text)
-            .map(Self)
-            .map_err(|error| PyValueError::new_err(format!("not the text of a verification: {error}")))
-    }
-
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-        let text = toml::to_string(&self.0).map_err(|error| InternalError::new_err(error.to_string()))?;
-        Ok((py.get_type::<Self>().getattr("_restored")?, (text,)))
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
-    }
-
-    fn __str__(&self) -> String {
-        self.0.to_string()
     }
 
     fn __repr__(&self) -> String {

@@ -1,15 +1,38 @@
 //! The options of a solution: method, averaging, level of the gravity-gradient theory, largest order.
 
-use std::fmt;
-use std::str::FromStr;
+use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+
+/// Reads and writes the names that serde gives the variants. The error of another name has the name of the type.
+macro_rules! named {
+    ($($type:ident),+) => {$(
+        impl std::str::FromStr for $type {
+            type Err = Error;
+
+            fn from_str(text: &str) -> Result<Self, Error> {
+                let name = serde::de::value::StrDeserializer::<serde::de::value::Error>::new(text);
+                serde::Deserialize::deserialize(name).map_err(|_| Error::$type { value: text.to_owned() })
+            }
+        }
+
+        impl std::fmt::Display for $type {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                serde::Serialize::serialize(self, f)
+            }
+        }
+    )+};
+}
+
+pub(crate) use named;
+
+named!(Method, Convention, Level, Averaging);
 
 /// The highest order of the series. It reaches σ/σ_sep = 0.66 for a tolerance of 1e-12.
 pub const MAX_ORDER: usize = 60;
 
 /// The formulas that evaluate a motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Method {
@@ -26,35 +49,8 @@ pub enum Method {
     Libration,
 }
 
-impl FromStr for Method {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self, Error> {
-        match text {
-            "auto" => Ok(Self::Auto),
-            "series" => Ok(Self::Series),
-            "closed" => Ok(Self::Closed),
-            "integrated" => Ok(Self::Integrated),
-            "libration" => Ok(Self::Libration),
-            _ => Err(Error::Method { value: text.to_owned() }),
-        }
-    }
-}
-
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Auto => "auto",
-            Self::Series => "series",
-            Self::Closed => "closed",
-            Self::Integrated => "integrated",
-            Self::Libration => "libration",
-        })
-    }
-}
-
 /// The axis whose precession and rotation a pair of periods describes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Convention {
@@ -73,31 +69,8 @@ impl Convention {
     pub const ALL: [Self; 3] = [Self::LongAxis, Self::ShortAxis, Self::ExtremalAxis];
 }
 
-impl FromStr for Convention {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self, Error> {
-        match text {
-            "extremal-axis" => Ok(Self::ExtremalAxis),
-            "long-axis" => Ok(Self::LongAxis),
-            "short-axis" => Ok(Self::ShortAxis),
-            _ => Err(Error::Convention { value: text.to_owned() }),
-        }
-    }
-}
-
-impl fmt::Display for Convention {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::ExtremalAxis => "extremal-axis",
-            Self::LongAxis => "long-axis",
-            Self::ShortAxis => "short-axis",
-        })
-    }
-}
-
 /// How much of the theory of the gravity gradient is used.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Level {
@@ -114,35 +87,8 @@ pub enum Level {
     SecondOrder,
 }
 
-impl FromStr for Level {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self, Error> {
-        match text {
-            "auto" => Ok(Self::Auto),
-            "paper" => Ok(Self::Paper),
-            "moving" => Ok(Self::Moving),
-            "full" => Ok(Self::Full),
-            "second-order" => Ok(Self::SecondOrder),
-            _ => Err(Error::Level { value: text.to_owned() }),
-        }
-    }
-}
-
-impl fmt::Display for Level {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Auto => "auto",
-            Self::Paper => "paper",
-            Self::Moving => "moving",
-            Self::Full => "full",
-            Self::SecondOrder => "second-order",
-        })
-    }
-}
-
 /// The averaging of the equations of motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Averaging {
@@ -153,27 +99,4 @@ pub enum Averaging {
     Orbit,
     /// Over the rotation only: the averaged equations are solved for each quarter of the orbit.
     Spin,
-}
-
-impl FromStr for Averaging {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self, Error> {
-        match text {
-            "auto" => Ok(Self::Auto),
-            "orbit" => Ok(Self::Orbit),
-            "spin" => Ok(Self::Spin),
-            _ => Err(Error::Averaging { value: text.to_owned() }),
-        }
-    }
-}
-
-impl fmt::Display for Averaging {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Auto => "auto",
-            Self::Orbit => "orbit",
-            Self::Spin => "spin",
-        })
-    }
 }

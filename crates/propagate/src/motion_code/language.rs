@@ -1,11 +1,11 @@
 //! The languages of the emitted code.
 
-use std::str::FromStr;
-
 use crate::error::Error;
+use crate::input::options::named;
 
 /// A language that [`Motion::to_code`](crate::Motion::to_code) writes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum CodeLanguage {
     /// C99 with `math.h`; without allocation.
@@ -18,17 +18,4 @@ pub enum CodeLanguage {
     JavaScript,
 }
 
-impl FromStr for CodeLanguage {
-    type Err = Error;
-
-    /// Reads "c", "rust", "python" or "javascript".
-    fn from_str(name: &str) -> Result<Self, Error> {
-        match name {
-            "c" => Ok(Self::C),
-            "rust" => Ok(Self::Rust),
-            "python" => Ok(Self::Python),
-            "javascript" => Ok(Self::JavaScript),
-            _ => Err(Error::CodeLanguage { value: name.to_owned() }),
-        }
-    }
-}
+named!(CodeLanguage);

@@ -32,15 +32,7 @@ pub enum Mode {
 
 impl fmt::Display for Mode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::ShortAxis => "short-axis",
-            Self::LongAxis => "long-axis",
-            Self::Separatrix => "separatrix",
-            Self::Axisymmetric => "axisymmetric",
-            Self::Spherical => "spherical",
-            Self::PrincipalAxis => "principal-axis",
-            Self::AtRest => "at-rest",
-        })
+        serde::Serialize::serialize(self, f)
     }
 }
 

@@ -11,6 +11,9 @@ use crate::computing::detached;
 use crate::error;
 use crate::form::{Form, either};
 use crate::progress;
+use crate::values::immutable;
+
+immutable!(BirkhoffNormalForm);
 
 #[pymethods]
 impl BirkhoffNormalForm {
@@ -151,13 +154,5 @@ impl BirkhoffNormalForm {
     /// there are resonant terms of saddles or quartets, or if ``keep="hyperbolic"``.
     fn __str__(&self, py: Python<'_>) -> PyResult<String> {
         detached(py, |never: Infallible| match never {}, || Ok(either!(&self.form, form => form.to_string())))
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 }

@@ -21,6 +21,7 @@ use crate::order::whole_number;
 use crate::partials::Partials;
 use crate::plan::Plan;
 use crate::samples::Samples;
+use crate::values::immutable;
 
 mod arguments;
 mod bodies;
@@ -38,6 +39,8 @@ const LONG: usize = 1 << 16;
 #[pyclass(frozen, eq, module = "andoyer")]
 #[derive(PartialEq)]
 pub(crate) struct Ensemble(andoyer_propagate::Ensemble, Vec<Calendar>);
+
+immutable!(Ensemble);
 
 #[pymethods]
 impl Ensemble {
@@ -396,14 +399,6 @@ impl Ensemble {
 
     fn __repr__(&self) -> String {
         self.text()
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {

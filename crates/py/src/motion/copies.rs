@@ -4,17 +4,12 @@ use pyo3::prelude::*;
 
 use super::Motion;
 use crate::scene_class::Scene;
+use crate::values::immutable;
+
+immutable!(Motion);
 
 #[pymethods]
 impl Motion {
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
-    }
-
     /// A motion is pickled as its scene and solved again on loading, without a `ToleranceWarning`.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Scene,))> {
         Ok((py.get_type::<Self>().getattr("_restored")?, (self.scene(),)))

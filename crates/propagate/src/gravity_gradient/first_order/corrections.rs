@@ -27,8 +27,7 @@ use crate::gravity_gradient::constants::{LARGEST_SIZE, SMALLEST_COEFFICIENT};
 use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::terms::regime::{Regime, Regimes, Terms};
-use crate::gravity_gradient::terms::term::Sensitivity;
-use crate::gravity_gradient::terms::term::SizedTerm;
+use crate::gravity_gradient::terms::term::{Sensitivity, Term};
 use crate::numerics::C64;
 use crate::orbit::derivatives::ORDERS;
 use crate::orbit::kepler::Place;
@@ -149,12 +148,12 @@ impl Collected {
     /// Adds a term in its regime.
     fn add(
         &mut self,
-        term: &SizedTerm,
+        term: &Term,
         regime: &Regime,
         inertia: &Inertia,
         (regimes, disturbance): (&Regimes<'_>, &Disturbance<'_>),
     ) {
-        let growth = regimes.growth(term.term.multiple);
+        let growth = regimes.growth(term.multiple);
         match (*regime, &disturbance.series) {
             (Regime::Exact { resonant, size }, Some(series)) => {
                 let divisors = regimes.divisors(term).with_resonant(resonant);
@@ -177,7 +176,7 @@ impl Collected {
                     let of_derivative = term.size() / term.frequency.abs().powi(j as i32); // j < ORDERS
                     *amplitude += (j + 1) as f64 * of_derivative / disturbance.envelope.span[0];
                 }
-                self.sums[term.term.multiple as usize].add(term, inertia, orders); // 0 ≤ m ≤ 2
+                self.sums[term.multiple as usize].add(term, inertia, orders); // 0 ≤ m ≤ 2
                 self.count += 1;
             }
             (Regime::Negligible, _) => {

@@ -19,7 +19,7 @@ use super::epoch_solution::{EpochSolution, PARTS};
 use super::sums::{GeneratorSlopes, SUMS};
 use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::terms::divisors::Divisors;
-use crate::gravity_gradient::terms::term::SizedTerm;
+use crate::gravity_gradient::terms::term::Term;
 use crate::orbit::hansen::OrbitSeries;
 use crate::orbit::kepler::Place;
 use crate::orbit::tensor::Products;
@@ -52,7 +52,7 @@ impl ExactTerm {
     /// A term with these divisors in the series. Coefficients whose part of the term is smaller than a tenth of `nothing` are dropped.
     /// `unit` is the unit of rates in the user's.
     pub(crate) fn new(
-        term: &SizedTerm,
+        term: &Term,
         inertia: &Inertia,
         (series, divisors): (&OrbitSeries, Divisors),
         (nothing, unit): (f64, f64),
@@ -94,7 +94,7 @@ impl ExactTerm {
             .collect();
         let something = |terms: &[[f64; PARTS]; 3]| terms.iter().flatten().any(|c| c.abs() > negligible);
         coefficients.truncate(coefficients.iter().rposition(something).map_or(0, |last| last + 1));
-        let numbers = (term.term.harmonic, term.term.multiple);
+        let numbers = (term.harmonic, term.multiple);
         let resonant = divisors.resonant.map(|number| EpochSolution::new(number, series, &divisors, unit));
         Self { numbers, divisors, factors: term.factors(inertia), coefficients, resonant }
     }

@@ -1,7 +1,7 @@
 //! Sums over the terms of one m, by time derivative, and what each term adds to them.
 
 use crate::gravity_gradient::inertia::Inertia;
-use crate::gravity_gradient::terms::term::{SizedTerm, Term};
+use crate::gravity_gradient::terms::term::Term;
 use crate::orbit::tensor::Deviator;
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
@@ -22,9 +22,9 @@ pub(crate) struct TermSums {
 
 impl TermSums {
     /// Adds a term with `orders` derivatives of g.
-    pub(crate) fn add(&mut self, term: &SizedTerm, inertia: &Inertia, orders: usize) {
+    pub(crate) fn add(&mut self, term: &Term, inertia: &Inertia, orders: usize) {
         let [still, moving] = term.factors(inertia);
-        let harmonic = term.term.harmonic;
+        let harmonic = term.harmonic;
         let degree = harmonic.unsigned_abs() as usize;
         let sign = if harmonic < 0 { -1.0 } else { 1.0 };
         self.orders.resize_with(self.orders.len().max(orders), Vec::new);
@@ -155,14 +155,10 @@ impl<S: InstructionSet> GeneratorSlopes<S> {
     }
 }
 
-impl SizedTerm {
+impl Term {
     /// The factors of G and of −Ω ∂G/∂Ω in W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
     pub(crate) fn factors(&self, inertia: &Inertia) -> [[f64; 4]; 2] {
-        let Self {
-            term: Term { harmonic, function: [value, slope, _], frequency: [_, by_sigma, _], .. },
-            frequency,
-            ..
-        } = *self;
+        let Self { harmonic, function: [value, slope, _], frequency, per_momentum: [_, by_sigma, _], .. } = *self;
         let by_sigma = inertia.momentum * by_sigma;
         let (root, degree) = (inertia.sigma.sqrt(), harmonic.abs());
         let inverse = 1.0 / frequency;

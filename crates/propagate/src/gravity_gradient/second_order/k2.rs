@@ -154,7 +154,7 @@ impl K2Sums {
         let mut sums = Self { by_action: [[0.0; 2]; 3], by_turn: [[0.0; 2]; 3] };
         for term in terms {
             let (h, m) = (f64::from(term.harmonic), f64::from(term.multiple));
-            let [value, slope, curvature] = product(term.square(sigma), power(term.frequency, -(order + 1)));
+            let [value, slope, curvature] = product(term.square(sigma), power(term.per_momentum, -(order + 1)));
             let weight = m * f64::from(order + 1);
             let index = term.multiple as usize; // 0 ≤ m ≤ 2
             sums.by_action[index][0] += (h - m * sigma) * slope - weight * value;

@@ -90,7 +90,7 @@ impl Remainder {
         for multiple in 0..=2 {
             let harmonics: Vec<_> = (-highest..=highest).map(|j| (j, of_harmonic(multiple, j))).collect();
             for (term, divisors) in terms.iter().filter(|(term, _)| term.multiple == multiple) {
-                let omega = inertia.momentum * term.frequency[0];
+                let omega = term.frequency;
                 for (j, [still, turned @ ..]) in &harmonics {
                     let step = f64::from(*j) * disturbance.mean_motion;
                     let of_frequency = match divisors {
@@ -145,7 +145,7 @@ fn shape(term: &Term, inertia: &Inertia, [g, g1, g2]: [f64; 3]) -> [[f64; 2]; 3]
     let Inertia { sigma, momentum, .. } = *inertia;
     let m = f64::from(term.multiple);
     let a = f64::from(term.harmonic) - m * sigma;
-    let ([s, s1, s2], [nu, nu1, nu2]) = (term.square(sigma), term.frequency);
+    let ([s, s1, s2], [nu, nu1, nu2]) = (term.square(sigma), term.per_momentum);
     let along = a * nu1 + m * nu;
     [
         [a / momentum * s1 * g + s * along * g1, s * g / momentum],

@@ -2,9 +2,9 @@
 
 use super::k2::Hamiltonian;
 use super::k2_remainder::SteadyRates;
-use super::pair_harmonics::{OrbitHarmonics, Parts};
+use super::pair_harmonics::{OrbitHarmonics, SplitTerm};
 use super::pair_terms::{PairTerm, SecondOrderState};
-use super::pairs::{Actions, OrbitParts, second_actions};
+use super::pairs::{Actions, second_actions};
 use crate::error::Error;
 use crate::gravity_gradient::constants::CUTOFF;
 use crate::gravity_gradient::disturbance::Disturbance;
@@ -61,8 +61,9 @@ impl SecondOrderData {
             (exact, &fast_terms(inertia, CUTOFF.sqrt(), slow_limit)),
         );
         let terms = fast_terms(inertia, CUTOFF, slow_limit);
-        let exact = harmonics.as_ref().map(|harmonics| split(inertia, exact, harmonics)).unwrap_or_default();
-        let second = second_actions(&at_epoch, &terms, &exact);
+        let exact = harmonics.as_ref().map(|harmonics| split(&at_epoch, exact, harmonics)).unwrap_or_default();
+        let average = harmonics.map(|harmonics| harmonics.average(&PairTerm::average(&at_epoch))).unwrap_or_default();
+        let second = second_actions(&at_epoch, &terms, &exact, &average);
         let turn = if mean.p == C64::default() { C64::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
         let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
         // The corrections drop terms and truncate sums. `lacking` is M of all terms less M of the corrections.
@@ -107,12 +108,15 @@ pub(crate) fn hamiltonian(inertia: &Inertia, disturbance: &Disturbance<'_>, stea
 }
 
 /// The terms with exact divisors, split into harmonics.
-fn split(inertia: &Inertia, exact: &[ExactTerm], harmonics: &OrbitHarmonics) -> OrbitParts {
+fn split(at_epoch: &SecondOrderState<'_>, exact: &[ExactTerm], harmonics: &OrbitHarmonics) -> Vec<SplitTerm> {
+    let inertia = at_epoch.inertia;
     let split = |exact: &ExactTerm| {
         let (harmonic, multiple) = exact.numbers;
-        (Term::new(inertia, harmonic, multiple), harmonics.split(multiple, &exact.divisors))
+        let term = Term::new(inertia, harmonic, multiple);
+        let strength = term.strength(inertia.root()) * inertia.momentum;
+        harmonics.split((PairTerm::of(at_epoch, &term), strength), &exact.divisors)
     };
-    OrbitParts { terms: exact.iter().map(split).collect(), average: harmonics.average() }
+    exact.iter().map(split).collect()
 }
 
 /// δM and δL of first order, and their truncation errors by the sums over time derivatives.
@@ -123,7 +127,7 @@ fn first_actions(
 ) -> Actions {
     let mut actions = Actions::default();
     for term in terms {
-        let row = PairTerm::of(at_epoch, term, Parts::default());
+        let row = PairTerm::of(at_epoch, term);
         let (value, rest) = match harmonics {
             Some((harmonics, exact)) => {
                 let exact = exact.iter().find(|other| other.numbers == (term.harmonic, term.multiple));

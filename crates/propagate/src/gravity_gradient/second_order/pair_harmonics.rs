@@ -7,6 +7,7 @@
 //! over the span on either side, the error of the attitude was four times as large in scenes without a resonance, because the corrections take the regular harmonics as a
 //! whole.
 
+use super::pair_terms::{ContractedPart, PairTerm};
 use crate::gravity_gradient::constants::SUMMED_ABOVE;
 use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
@@ -23,73 +24,13 @@ const TURNS: [i32; 3] = [0, 2, -2];
 /// Highest |j| of the harmonics of ⟨D⟩ that are paired with single harmonics of terms. At e = 0.6 the next one is 1/400 of the mean of ⟨D⟩.
 const MOST_OF_AVERAGE: usize = 24;
 
-/// A harmonic of the orbit in a term.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Near {
-    /// Ω + jn.
-    pub(crate) frequency: f64,
-    /// Ω + jn with the shift by the average torque.
-    pub(crate) divisor: f64,
-    /// The contraction of Θ_j e^(ijl).
-    pub(crate) torque: Contraction,
-    /// The contraction of W for this harmonic: `torque` divided by i times the divisor.
-    generator: ContractedPart,
-    /// Whether the divisors have the shift by the average torque.
-    pub(crate) shifted: bool,
-}
-
-/// A contraction and its derivative with respect to Ω.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct ContractedPart {
-    pub(crate) value: Contraction,
-    pub(crate) slope: C64,
-}
-
-/// The amplitudes of D, dD/dt, W and dW/dt of one term.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Parts {
-    pub(crate) torque: [ContractedPart; 2],
-    pub(crate) generator: [ContractedPart; 2],
-}
-
-/// A term whose divisors are exact.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Split {
-    pub(crate) near: Vec<Near>,
-    pub(crate) rest: Parts,
-}
-
-impl Near {
-    /// As a term of this frequency, whose amplitude is constant.
-    pub(crate) fn parts(&self) -> Parts {
-        let torque = ContractedPart { value: self.torque, slope: C64::default() };
-        Parts { torque: [torque, ContractedPart::default()], generator: [self.generator, ContractedPart::default()] }
-    }
-}
-
-impl ContractedPart {
-    /// Adds a part of D with its divisor, as one of W.
-    fn add(&mut self, torque: Contraction, reciprocal: f64) {
-        let inverse = C64::new(0.0, -reciprocal);
-        for (w, part) in self.value.iter_mut().zip(torque) {
-            *w += part * inverse;
-        }
-        self.slope -= torque[0] * inverse * reciprocal;
-    }
-}
-
-impl Parts {
-    /// Adds a harmonic of frequency jn with its divisor.
-    fn add(&mut self, torque: Contraction, step: f64, reciprocal: f64) {
-        let mut torque = torque;
-        for (d, w) in self.torque.iter_mut().zip(&mut self.generator) {
-            for (d, part) in d.value.iter_mut().zip(torque) {
-                *d += part;
-            }
-            w.add(torque, reciprocal);
-            torque = torque.map(|part| part * C64::new(0.0, step));
-        }
-    }
+/// A term whose divisors are exact, in parts.
+#[derive(Clone, Debug)]
+pub(crate) struct SplitTerm {
+    /// The harmonics of the orbit near resonance. Each is a term of its own.
+    pub(crate) near: Vec<PairTerm>,
+    /// The other harmonics together.
+    pub(crate) rest: PairTerm,
 }
 
 /// The series of one orbit at one place of the disturbing body.
@@ -98,6 +39,8 @@ pub(crate) struct OrbitHarmonics {
     waves: Vec<[C64; 3]>,
     /// The contractions for m = 0, 1, 2 of the tensors that belong to these functions.
     contracted: [[Contraction; 3]; 3],
+    /// Largest size of (a/r)³ r̂r̂ on the orbit.
+    largest: f64,
     mean_motion: f64,
     /// The span.
     duration: f64,
@@ -125,6 +68,7 @@ impl OrbitHarmonics {
                 let half = |sign: f64| std::array::from_fn(|i| 0.5 * (cosine[i] - C64::new(0.0, sign) * sine[i]));
                 [one, half(1.0), half(-1.0)]
             }),
+            largest: disturbance.envelope.orbital.norms[0],
             mean_motion: disturbance.mean_motion,
             duration: disturbance.duration,
             slow_limit: slow_limit(disturbance),
@@ -150,47 +94,60 @@ impl OrbitHarmonics {
         sums.iter().zip(contracted).map(|(sum, part)| sum * part[0]).sum::<C64>() * -C64::i()
     }
 
-    /// A corrected term, split into the harmonics near resonance and the rest. A term without a sum over time derivatives has no rest.
-    pub(crate) fn split(&self, multiple: i32, divisors: &Divisors) -> Split {
+    /// A term, split into the harmonics near resonance and the rest. It comes with D = W = 0 and with the relative rate of change of the mean variables by it. A term
+    /// without a sum over time derivatives has no rest.
+    pub(crate) fn split(&self, (whole, strength): (PairTerm, f64), divisors: &Divisors) -> SplitTerm {
         let count = (self.waves.len() / 2) as i32;
-        let mut split = Split::default();
+        let multiple = whole.multiple as usize; // 0 ≤ m ≤ 2
+        let [_, by_sigma, by_momentum] = whole.frequency;
+        let mut split = SplitTerm { near: Vec::new(), rest: whole };
         for (i, harmonic) in self.waves.iter().enumerate() {
             let j = i as i32 - count;
             if divisors.resonant == Some(j) {
                 continue;
             }
             let torque = self.contracted(harmonic, multiple);
-            let frequency = divisors.unshifted(j);
+            let unshifted = divisors.unshifted(j);
             if divisors.is_single(j) {
                 let mut generator = ContractedPart::default();
                 for (k, turns) in TURNS.into_iter().enumerate() {
-                    let functions = &self.contracted[multiple as usize][k]; // 0 ≤ m ≤ 2
+                    let functions = &self.contracted[multiple][k];
                     generator.add(functions.map(|function| harmonic[k] * function), divisors.reciprocal(j, turns));
                 }
                 let (divisor, shifted) = (divisors.smallest(j), divisors.is_shifted(j));
-                split.near.push(Near { frequency, divisor, torque, generator, shifted });
+                let share = torque.iter().map(|part| part.norm_sqr()).fold(0.0, f64::max).sqrt() / self.largest;
+                split.near.push(PairTerm {
+                    size: share * strength / divisor.abs(),
+                    frequency: [divisor, by_sigma, by_momentum],
+                    unshifted,
+                    torque: [torque.into(), ContractedPart::default()],
+                    generator: [generator, ContractedPart::default()],
+                    single: true,
+                    shifted,
+                    ..whole
+                });
             } else {
-                split.rest.add(torque, f64::from(j) * self.mean_motion, 1.0 / frequency);
+                split.rest.add(torque, f64::from(j) * self.mean_motion, 1.0 / unshifted);
             }
         }
         split
     }
 
-    /// The lowest harmonics of c_0 with their frequencies: those of ⟨D⟩.
-    pub(crate) fn average(&self) -> Vec<Near> {
+    /// The lowest harmonics of ⟨D⟩.
+    pub(crate) fn average(&self, average: &PairTerm) -> Vec<PairTerm> {
         let count = self.waves.len() / 2;
         let most = count.min(MOST_OF_AVERAGE);
-        let near = (count - most..=count + most).map(|i| {
-            let frequency = (i as f64 - count as f64) * self.mean_motion;
-            let torque = self.contracted(&self.waves[i], 0);
-            Near { frequency, divisor: frequency, torque, generator: ContractedPart::default(), shifted: false }
+        let harmonics = (count - most..=count + most).map(|i| {
+            let frequency = [(i as f64 - count as f64) * self.mean_motion, 0.0, 0.0];
+            let torque = [self.contracted(&self.waves[i], 0).into(), ContractedPart::default()];
+            PairTerm { frequency, torque, single: true, ..*average }
         });
-        near.collect()
+        harmonics.collect()
     }
 
     /// One harmonic's contraction.
-    fn contracted(&self, harmonic: &[C64; 3], multiple: i32) -> Contraction {
-        let functions = &self.contracted[multiple as usize]; // 0 ≤ m ≤ 2
+    fn contracted(&self, harmonic: &[C64; 3], multiple: usize) -> Contraction {
+        let functions = &self.contracted[multiple];
         std::array::from_fn(|i| harmonic.iter().zip(functions).map(|(part, function)| part * function[i]).sum())
     }
 
@@ -235,6 +192,11 @@ mod tests {
         let frame = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1);
         let disturbance = Disturbance { duration, ..whole(&orbit, frame * Vector3::z()) };
         with(&Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame }, &disturbance)
+    }
+
+    /// A term of this frequency, and the relative rate of change by it.
+    fn term(omega: f64, multiple: i32) -> (PairTerm, f64) {
+        (PairTerm { multiple: f64::from(multiple), frequency: [omega, 0.0, 0.0], ..PairTerm::default() }, 1.0)
     }
 
     /// c_m of Ξ for a span, and by the quadrature ∫ e^(iΩτ) Θ(τ) dτ over the period before, over 1 − e^(−iΩP).
@@ -306,14 +268,15 @@ mod tests {
                 let omega = number * MEAN_MOTION;
                 let divisors =
                     Divisors::new((1, multiple), [omega, MEAN_MOTION], multiple == 2, &AverageShift::default());
-                let Split { near, rest } = series.split(multiple, &divisors);
+                let SplitTerm { near, rest } = series.split(term(omega, multiple), &divisors);
                 assert!(if multiple == 2 { near.len() > 100 } else { near.len() == 5 }, "{}", near.len());
                 let (mut torque, mut change, mut generator) =
                     (rest.torque[0].value, rest.torque[1].value[0], rest.generator[0].value[0]);
                 for harmonic in &near {
-                    torque = std::array::from_fn(|i| torque[i] + harmonic.torque[i]);
-                    change += harmonic.torque[0] * C64::i() * (harmonic.frequency - omega);
-                    generator += harmonic.parts().generator[0].value[0];
+                    let added = harmonic.torque[0].value;
+                    torque = std::array::from_fn(|i| torque[i] + added[i]);
+                    change += added[0] * C64::i() * (harmonic.unshifted - omega);
+                    generator += harmonic.generator[0].value[0];
                 }
                 let expected = contraction(&tensors[0], multiple);
                 let scale = expected.iter().map(|part| part.norm()).fold(0.0, f64::max);
@@ -336,9 +299,9 @@ mod tests {
                 let generator = |omega: f64| {
                     let divisors =
                         Divisors::new((1, multiple), [omega, MEAN_MOTION], multiple == 2, &AverageShift::default());
-                    let Split { near, rest } = series.split(multiple, &divisors);
+                    let SplitTerm { near, rest } = series.split(term(omega, multiple), &divisors);
                     near.iter()
-                        .map(|harmonic| harmonic.parts().generator[0])
+                        .map(|harmonic| harmonic.generator[0])
                         .fold((rest.generator[0].value[0], rest.generator[0].slope), |(value, slope), part| {
                             (value + part.value[0], slope + part.slope)
                         })

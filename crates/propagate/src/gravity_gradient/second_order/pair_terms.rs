@@ -1,6 +1,5 @@
 //! The terms of the sum over pairs at one state: their amplitudes, those of the generating function, and the bracket of two.
 
-use super::pair_harmonics::{ContractedPart, Near, Parts};
 use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::inertia::Inertia;
@@ -33,20 +32,50 @@ pub(crate) fn tensors(
     move |place| orbital.tensors(&products, node, place)
 }
 
-/// One term, or ⟨D⟩.
-#[derive(Clone, Copy)]
+/// A contraction and its derivative with respect to Ω.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct ContractedPart {
+    pub(crate) value: Contraction,
+    pub(crate) slope: C64,
+}
+
+impl ContractedPart {
+    /// Adds a part of D with its divisor, as one of W.
+    pub(crate) fn add(&mut self, torque: Contraction, reciprocal: f64) {
+        let inverse = C64::new(0.0, -reciprocal);
+        for (w, part) in self.value.iter_mut().zip(torque) {
+            *w += part * inverse;
+        }
+        self.slope -= torque[0] * inverse * reciprocal;
+    }
+}
+
+impl From<Contraction> for ContractedPart {
+    /// A contraction that does not depend on Ω.
+    fn from(value: Contraction) -> Self {
+        Self { value, slope: C64::default() }
+    }
+}
+
+/// One term, one harmonic of the orbit in a term, or ⟨D⟩.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct PairTerm {
     pub(crate) harmonic: f64,
     pub(crate) multiple: f64,
     /// Relative size.
     pub(crate) size: f64,
-    /// Ω and its derivatives with respect to σ and M.
+    /// Ω and its derivatives with respect to σ and M. For a harmonic of the orbit the divisor, which may have the shift by the average torque.
     pub(crate) frequency: [f64; 3],
+    /// Ω + jn of a harmonic of the orbit.
+    pub(crate) unshifted: f64,
     /// Γ e^(i(hℓ′+my′)), and −i for m = 1.
     pub(crate) weight: C64,
     /// F, √σ dF/dσ, and h F/√σ.
     pub(crate) amplitude: [f64; 3],
-    pub(crate) parts: Parts,
+    /// D and dD/dt.
+    pub(crate) torque: [ContractedPart; 2],
+    /// W and dW/dt.
+    pub(crate) generator: [ContractedPart; 2],
     /// Whether it is one harmonic of the orbit, which has no other time dependence than its frequency.
     pub(crate) single: bool,
     /// Whether its divisors have the shift by the average torque.
@@ -88,16 +117,27 @@ impl PairTerm {
     /// A term by the sums over time derivatives.
     pub(crate) fn new(state: &SecondOrderState<'_>, term: &Term) -> Self {
         let contracted = state.tensors.map(|tensor| contraction(&tensor, term.multiple));
-        let omega = state.mean.momentum * term.frequency[0];
+        let omega = term.frequency;
         let orders = orders(omega, &state.disturbance.envelope.epoch);
-        let parts = Parts {
-            torque: [0, 1].map(|j| ContractedPart { value: contracted[j], slope: C64::default() }),
-            generator: [
-                generated(&contracted[..orders], omega),
-                generated(&contracted[1..ORDERS.min(orders + 1)], omega),
-            ],
-        };
-        Self::of(state, term, parts)
+        let generator =
+            [generated(&contracted[..orders], omega), generated(&contracted[1..ORDERS.min(orders + 1)], omega)];
+        Self { torque: [contracted[0].into(), contracted[1].into()], generator, ..Self::of(state, term) }
+    }
+
+    /// Whether both have the same h and m.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        (self.harmonic, self.multiple) == (other.harmonic, other.multiple)
+    }
+
+    /// Adds a harmonic of frequency jn with its divisor.
+    pub(crate) fn add(&mut self, mut torque: Contraction, step: f64, reciprocal: f64) {
+        for (d, w) in self.torque.iter_mut().zip(&mut self.generator) {
+            for (d, part) in d.value.iter_mut().zip(torque) {
+                *d += part;
+            }
+            w.add(torque, reciprocal);
+            torque = torque.map(|part| part * C64::new(0.0, step));
+        }
     }
 
     /// c_m of Ξ by the sum over time derivatives, and the size of the first omitted part.
@@ -115,82 +155,50 @@ impl PairTerm {
 
     /// D and W of the term with the disturbing body at another place, from the contractions of the tensor and its derivatives there. The harmonics `near` are
     /// terms of their own and are subtracted; `elapsed` is the time from the place of their amplitudes. dD/dt and dW/dt are not computed.
-    pub(crate) fn elsewhere(&self, contracted: &[Contraction], near: &[Near], elapsed: f64) -> Self {
+    pub(crate) fn elsewhere(&self, contracted: &[Contraction], near: &[Self], elapsed: f64) -> Self {
         let omega = self.frequency[0];
         let mut contracted = contracted.to_vec();
         for harmonic in near {
-            let rate = harmonic.frequency - omega;
+            let rate = harmonic.unshifted - omega;
             let mut turn = C64::from_polar(1.0, rate * elapsed);
             for values in &mut contracted {
-                for (value, part) in values.iter_mut().zip(harmonic.torque) {
+                for (value, part) in values.iter_mut().zip(harmonic.torque[0].value) {
                     *value -= part * turn;
                 }
                 turn *= C64::new(0.0, rate);
             }
         }
-        let torque = ContractedPart { value: contracted[0], slope: C64::default() };
-        let generator = generated(&contracted, omega);
-        let parts =
-            Parts { torque: [torque, ContractedPart::default()], generator: [generator, ContractedPart::default()] };
-        Self { parts, ..*self }
+        let torque = [contracted[0].into(), ContractedPart::default()];
+        Self { torque, generator: [generated(&contracted, omega), ContractedPart::default()], ..*self }
     }
 
-    /// One harmonic of the orbit in a term.
-    pub(crate) fn single(state: &SecondOrderState<'_>, term: &Term, near: &Near) -> Self {
-        let row = Self::of(state, term, near.parts());
-        let share = near.torque.iter().map(|part| part.norm_sqr()).fold(0.0, f64::max).sqrt()
-            / state.disturbance.envelope.orbital.norms[0];
-        let root = state.inertia.root();
-        let size = share * term.strength(root) * state.mean.momentum / near.divisor.abs();
-        let [_, by_sigma, by_momentum] = row.frequency;
-        Self { size, frequency: [near.divisor, by_sigma, by_momentum], single: true, shifted: near.shifted, ..row }
-    }
-
-    /// A term with these amplitudes of D and W.
-    pub(crate) fn of(state: &SecondOrderState<'_>, term: &Term, parts: Parts) -> Self {
+    /// A term whose D and W are 0.
+    pub(crate) fn of(state: &SecondOrderState<'_>, term: &Term) -> Self {
         let (h, m) = (f64::from(term.harmonic), f64::from(term.multiple));
         let mean = state.mean;
-        let [nu, slope, _] = term.frequency;
+        let [nu, slope, _] = term.per_momentum;
         let angle = if mean.p == C64::default() { 0.0 } else { mean.p.arg() };
         let phase = C64::from_polar(state.disturbance.strength(), h * angle + m * mean.longitude);
         Self {
             harmonic: h,
             multiple: m,
-            size: term.size(state.inertia.root()),
+            size: term.relative_size(state.inertia.root()),
             frequency: [mean.momentum * nu, mean.momentum * slope, nu],
             weight: if term.multiple == 1 { phase * -C64::i() } else { phase },
             amplitude: amplitude(term.harmonic, term.weighted(), state.inertia.sigma),
-            parts,
-            single: false,
-            shifted: false,
+            ..Self::default()
         }
-    }
-
-    /// One harmonic of ⟨D⟩.
-    pub(crate) fn at(&self, near: &Near) -> Self {
-        let torque = [ContractedPart { value: near.torque, slope: C64::default() }, ContractedPart::default()];
-        let frequency = [near.frequency, 0.0, 0.0];
-        Self { frequency, parts: Parts { torque, ..Parts::default() }, single: true, ..*self }
     }
 
     /// 2⟨D⟩. The source of a pair with ⟨D⟩ is [⟨D⟩, W_b], without the factor ½ of R_ab = ½ [D_a, W_b].
     pub(crate) fn average(state: &SecondOrderState<'_>) -> Self {
         let function = Term::average(state.inertia);
-        let part =
-            |tensor: &Deviator<pulp::Scalar>| ContractedPart { value: contraction(tensor, 0), slope: C64::default() };
         Self {
-            harmonic: 0.0,
-            multiple: 0.0,
             size: 1.0,
-            frequency: [0.0; 3],
             weight: (2.0 * state.disturbance.strength()).into(),
             amplitude: amplitude(0, function, state.inertia.sigma),
-            parts: Parts {
-                torque: [part(&state.tensors[0]), part(&state.tensors[1])],
-                generator: [ContractedPart::default(); 2],
-            },
-            single: false,
-            shifted: false,
+            torque: [0, 1].map(|j| contraction(&state.tensors[j], 0).into()),
+            ..Self::default()
         }
     }
 
@@ -203,17 +211,13 @@ impl PairTerm {
         Self {
             harmonic: -self.harmonic,
             multiple: -self.multiple,
-            size: self.size,
             frequency: self.frequency.map(|part| -part),
             weight: self.weight.conj(),
             amplitude: [whole, slope, -lowered],
-            parts: Parts {
-                torque: self.parts.torque.each_ref().map(|part| conjugated(part, 1.0)),
-                // Ω has the other sign.
-                generator: self.parts.generator.each_ref().map(|part| conjugated(part, -1.0)),
-            },
-            single: self.single,
-            shifted: self.shifted,
+            torque: self.torque.each_ref().map(|part| conjugated(part, 1.0)),
+            // Ω has the other sign.
+            generator: self.generator.each_ref().map(|part| conjugated(part, -1.0)),
+            ..*self
         }
     }
 }

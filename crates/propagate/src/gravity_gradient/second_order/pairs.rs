@@ -13,7 +13,7 @@
 //! A harmonic of the orbit near resonance is a term of its own, of frequency Ω + jn and of constant amplitude; a pair of two such terms has the divisor of both
 //! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`crate::gravity_gradient::second_order::pairs_around`]).
 
-use super::pair_harmonics::{Near, Split, inverse, unreturned};
+use super::pair_harmonics::{SplitTerm, inverse, unreturned};
 use super::pair_terms::{PairTerm, SecondOrderState};
 use super::pairs_around::{PairSum, by_harmonics};
 use crate::gravity_gradient::constants::CUTOFF;
@@ -28,38 +28,24 @@ pub(crate) struct Actions {
     pub(crate) left: [f64; 2],
 }
 
-/// The harmonics of the orbit in the sum.
-#[derive(Default)]
-pub(crate) struct OrbitParts {
-    /// The terms whose divisors are exact.
-    pub(crate) terms: Vec<(Term, Split)>,
-    /// ⟨D⟩'s harmonics.
-    pub(crate) average: Vec<Near>,
-}
-
-/// δ₂M and δ₂L at a mean state of first order.
-pub(crate) fn second_actions(state: &SecondOrderState<'_>, terms: &[Term], exact: &OrbitParts) -> Actions {
-    let is_exact = |term: &Term| exact.terms.iter().any(|(other, _)| term.is(other));
-    let mut listed: Vec<Term> = terms.iter().filter(|term| !is_exact(term)).copied().collect();
-    let mut half: Vec<PairTerm> = listed.iter().map(|term| PairTerm::new(state, term)).collect();
-    for (term, split) in &exact.terms {
-        if state.mean.momentum * term.frequency[0].abs() > state.slow_limit() {
-            listed.push(*term);
-            half.push(PairTerm::of(state, term, split.rest));
-        }
-    }
-    let single: Vec<PairTerm> = exact
-        .terms
-        .iter()
-        .flat_map(|(term, split)| split.near.iter().map(|near| PairTerm::single(state, term, near)))
-        .collect();
+/// δ₂M and δ₂L at a mean state of first order, from the terms, those whose divisors are exact, and the harmonics of ⟨D⟩.
+pub(crate) fn second_actions(
+    state: &SecondOrderState<'_>,
+    terms: &[Term],
+    exact: &[SplitTerm],
+    averages: &[PairTerm],
+) -> Actions {
+    let mut half: Vec<PairTerm> = terms.iter().map(|term| PairTerm::new(state, term)).collect();
+    half.retain(|term| !exact.iter().any(|split| split.rest.is(term)));
+    half.extend(exact.iter().map(|split| split.rest).filter(|rest| rest.frequency[0].abs() > state.slow_limit()));
+    let listed = half.len();
+    let single: Vec<PairTerm> = exact.iter().flat_map(|split| &split.near).copied().collect();
     let largest_of = |rows: &[PairTerm]| rows.iter().fold(0.0_f64, |most, row| most.max(row.size));
     let largest = if half.is_empty() { largest_of(&single) } else { largest_of(&half) };
     half.extend(single.into_iter().filter(|row| row.size > CUTOFF * largest));
     half.iter_mut().for_each(|row| row.size /= largest);
     let rows: Vec<PairTerm> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
     let average = PairTerm::average(state);
-    let averages: Vec<PairTerm> = exact.average.iter().map(|near| average.at(near)).collect();
     let (mut actions, mut together) = (Actions::default(), Vec::new());
     for b in &rows {
         // The other half of the sum is its conjugate.
@@ -80,9 +66,8 @@ pub(crate) fn second_actions(state: &SecondOrderState<'_>, terms: &[Term], exact
         actions.change(pairs.numbers, pairs.by_sum(state), pairs.sum_error(state).hypot(resonant));
     }
     if !served.is_empty() {
-        let listed: Vec<_> = listed.into_iter().zip(half.iter().map(|row| row.size)).collect();
         let mut errors = [0.0; 2];
-        for (pairs, [part, left]) in served.iter().zip(by_harmonics(state, &listed, &served, &exact.terms)) {
+        for (pairs, [part, left]) in served.iter().zip(by_harmonics(state, &half[..listed], &served, exact)) {
             let [h, m] = pairs.numbers.map(f64::abs);
             actions.change(pairs.numbers, part, 0.0);
             errors = [errors[0] + m * left, errors[1] + h * left];
@@ -101,8 +86,8 @@ impl Actions {
         factor: f64,
         together: &mut Vec<PairSum>,
     ) {
-        let (torque, wave) = (&a.parts.torque, &b.parts.generator);
-        let both = 0.5 * factor * state.bracket(a, &a.parts.generator[0], b, &wave[0]).im;
+        let (torque, wave) = (&a.torque, &b.generator);
+        let both = 0.5 * factor * state.bracket(a, &a.generator[0], b, &wave[0]).im;
         self.momentum += a.multiple * both;
         self.action += a.harmonic * both;
         let numbers = [a.harmonic + b.harmonic, a.multiple + b.multiple];

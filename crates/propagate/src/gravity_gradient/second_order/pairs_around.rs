@@ -5,11 +5,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::pair_harmonics::{Near, Parts, Split, inverse, unreturned};
+use super::pair_harmonics::{SplitTerm, inverse, unreturned};
 use super::pair_terms::{PairTerm, SecondOrderState, tensors};
 use crate::gravity_gradient::constants::{CUTOFF, MOST_POINTS, SOURCE_CHANGE, SOURCE_MARGIN};
 use crate::gravity_gradient::disturbance::Disturbance;
-use crate::gravity_gradient::terms::term::{Term, slow_limit};
+use crate::gravity_gradient::terms::term::slow_limit;
 use crate::numerics::C64;
 use crate::orbit::hansen::at_most;
 use crate::orbit::kepler::Place;
@@ -139,27 +139,12 @@ fn even(eccentricity: f64, count: f64) -> Vec<(f64, f64)> {
     (0..count as usize).map(point).collect()
 }
 
-/// A term of these pairs, around the orbit.
-struct TermAround<'a> {
-    row: PairTerm,
-    /// m.
-    multiple: usize,
-    /// The number of derivatives in its sum.
-    orders: usize,
-    /// The harmonics of the orbit in it that are terms of their own.
-    near: &'a [Near],
-}
-
-/// A pair: the index of its total; the indices of its two rows, where row 0 is ⟨D⟩ and each term is followed by its conjugate; and true if the pair has −h and −m
-/// of the total.
-type TermPair = (usize, [usize; 2], bool);
-
-/// The real part of −iχ of the pairs of these terms with each of these totals, and its error. A term comes with its relative size.
+/// The real part of −iχ of the pairs of these terms with each of these totals, and its error.
 pub(crate) fn by_harmonics(
     state: &SecondOrderState<'_>,
-    listed: &[(Term, f64)],
+    listed: &[PairTerm],
     totals: &[PairSum],
-    exact: &[(Term, Split)],
+    exact: &[SplitTerm],
 ) -> Vec<[f64; 2]> {
     let highest = totals.iter().filter_map(|total| highest(state, total.frequency)).fold(0.0, f64::max);
     let points = even(state.disturbance.orbit.eccentricity(), points_for(highest));
@@ -187,18 +172,16 @@ pub(crate) fn by_harmonics(
 /// R of the pairs with each of these totals, at each point of the orbit.
 fn sources(
     state: &SecondOrderState<'_>,
-    (listed, totals): (&[(Term, f64)], &[PairSum]),
-    exact: &[(Term, Split)],
+    (listed, totals): (&[PairTerm], &[PairSum]),
+    exact: &[SplitTerm],
     points: &[(f64, f64)],
 ) -> Vec<Vec<C64>> {
     let pairs = pairs(listed, totals);
     let needed = |k: usize| pairs.iter().any(|(_, rows, _)| rows.iter().any(|row| row.div_ceil(2) == k + 1));
-    let near = |term: &Term| exact.iter().find(|(other, _)| term.is(other)).map_or(&[][..], |(_, split)| &split.near);
-    let around_orbit = |term: &Term| {
-        let row = PairTerm::of(state, term, Parts::default());
-        TermAround { row, multiple: term.multiple as usize, orders: row.orders_around(state), near: near(term) } // 0 ≤ m ≤ 2
-    };
-    let terms: Vec<_> = listed.iter().enumerate().map(|(k, (term, _))| (around_orbit(term), needed(k))).collect();
+    let near = |term: &PairTerm| exact.iter().find(|split| split.rest.is(term)).map_or(&[][..], |split| &split.near);
+    let around = |(k, term): (usize, &PairTerm)| needed(k).then(|| (term.orders_around(state), near(term)));
+    // The number of derivatives of each term, and its harmonics that are terms of their own.
+    let around: Vec<_> = listed.iter().enumerate().map(around).collect();
     let mut sources = vec![vec![C64::default(); points.len()]; totals.len()];
     let at_place = tensors(state.mean, state.disturbance);
     for (k, (anomaly, _)) in points.iter().enumerate() {
@@ -206,35 +189,38 @@ fn sources(
         let state = SecondOrderState { tensors: at_place(&place), ..*state };
         let elapsed = (anomaly - state.anomaly) / state.disturbance.mean_motion;
         let contracted = [0, 1, 2].map(|multiple| state.tensors.map(|tensor| contraction(&tensor, multiple)));
-        let here = |(TermAround { row, multiple, orders, near }, needed): &(TermAround<'_>, bool)| {
-            let row = if *needed { row.elsewhere(&contracted[*multiple][..*orders], near, elapsed) } else { *row };
+        let here = |(term, around): (&PairTerm, &Option<(usize, &[PairTerm])>)| {
+            let contracted = &contracted[term.multiple as usize]; // 0 ≤ m ≤ 2
+            let row = around.map_or(*term, |(orders, near)| term.elsewhere(&contracted[..orders], near, elapsed));
             [row, row.conjugate()]
         };
-        let rows: Vec<_> = std::iter::once(PairTerm::average(&state)).chain(terms.iter().flat_map(here)).collect();
+        let terms = listed.iter().zip(&around).flat_map(here);
+        let rows: Vec<_> = std::iter::once(PairTerm::average(&state)).chain(terms).collect();
         for (place, pair, opposite) in &pairs {
             let [a, b] = pair.map(|row| &rows[row]);
-            let source = state.bracket(a, &a.parts.torque[0], b, &b.parts.generator[0]);
+            let source = state.bracket(a, &a.torque[0], b, &b.generator[0]);
             sources[*place][k] += if *opposite { source.conj() } else { source };
         }
     }
     sources
 }
 
-/// The pairs of these terms that have one of these totals, or its opposite. The first of each is ⟨D⟩ or a term, and not the conjugate of one.
-fn pairs(listed: &[(Term, f64)], totals: &[PairSum]) -> Vec<TermPair> {
+/// The pairs of these terms that have one of these totals, or its opposite: the index of the total; the indices of the two rows, where row 0 is ⟨D⟩ and each term is followed
+/// by its conjugate; and true for the opposite. The first of each pair is ⟨D⟩ or a term, and not the conjugate of one.
+fn pairs(listed: &[PairTerm], totals: &[PairSum]) -> Vec<(usize, [usize; 2], bool)> {
     let mut pairs = Vec::new();
-    for (k, (b, size)) in listed.iter().enumerate() {
-        for (row, sign) in [(2 * k + 1, 1), (2 * k + 2, -1)] {
-            let mut add = |first: usize, harmonic: i32, multiple: i32| {
-                let [h, m] = [harmonic + sign * b.harmonic, multiple + sign * b.multiple].map(f64::from);
+    for (k, b) in listed.iter().enumerate() {
+        for (row, sign) in [(2 * k + 1, 1.0), (2 * k + 2, -1.0)] {
+            let mut add = |first: usize, harmonic: f64, multiple: f64| {
+                let [h, m] = [harmonic + sign * b.harmonic, multiple + sign * b.multiple];
                 let place = totals.iter().position(|total| total.numbers == [h, m] || total.numbers == [-h, -m]);
                 pairs.extend(place.map(|place| (place, [first, row], totals[place].numbers != [h, m])));
             };
-            for (i, (a, _)) in listed.iter().enumerate().filter(|(_, (_, other))| size * other >= CUTOFF) {
+            for (i, a) in listed.iter().enumerate().filter(|(_, a)| a.size * b.size >= CUTOFF) {
                 add(2 * i + 1, a.harmonic, a.multiple);
             }
-            if sign == 1 {
-                add(0, 0, 0);
+            if sign == 1.0 {
+                add(0, 0.0, 0.0);
             }
         }
     }

@@ -11,7 +11,7 @@ use crate::gravity_gradient::request::osculating;
 use crate::gravity_gradient::second_order::k2::{DisturberLanes, Hamiltonian, in_lanes};
 use crate::gravity_gradient::second_order::k2_orbit_mean::OverOrbit;
 use crate::gravity_gradient::second_order::pair_terms::{PairTerm, SecondOrderState, tensors};
-use crate::gravity_gradient::second_order::pairs::{OrbitParts, second_actions};
+use crate::gravity_gradient::second_order::pairs::second_actions;
 use crate::gravity_gradient::terms::term::{Term, fast_terms, slow_limit};
 use crate::numerics::C64;
 use crate::orbit::elements::Orbit;
@@ -77,7 +77,7 @@ fn values(hamiltonian: &Hamiltonian, axis: &Vector3<f64>, disturber: &PlacedBody
 /// ½ ⟨{D̃, W}⟩ from the pairs whose phases cancel, with as many time derivatives as the sums have.
 fn averaged(state: &SecondOrderState<'_>, terms: &[Term]) -> f64 {
     let rows = terms.iter().map(|term| PairTerm::new(state, term));
-    rows.map(|a| state.bracket(&a, &a.parts.torque[0], &a.conjugate(), &a.conjugate().parts.generator[0]).re).sum()
+    rows.map(|a| state.bracket(&a, &a.torque[0], &a.conjugate(), &a.conjugate().generator[0]).re).sum()
 }
 
 /// Of the disturbing body: what the closed form lacks is (n/Ω)² of it.
@@ -296,7 +296,7 @@ fn pairs_by_the_harmonics_of_the_orbit_are_those_by_time_derivatives() {
     let series = series(&reach).expect("a series");
     let [by_sums, by_orbit] = [None, Some(series)].map(|series| {
         let disturbance = Disturbance { series, mean_motion, duration: 1e6, ..scene.disturbance() };
-        second_actions(&scene.state(&inertia, &disturbance), &terms, &OrbitParts::default())
+        second_actions(&scene.state(&inertia, &disturbance), &terms, &[], &[])
     });
     // The sums end after two derivatives: the next has a few times (2n/Ω)², where Ω is 30 n and more.
     let scale = by_sums.momentum.abs() + by_sums.action.abs();

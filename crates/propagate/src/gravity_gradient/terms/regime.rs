@@ -12,7 +12,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::divisors::{AverageShift, Divisors, multiple_of, unreturned};
-use super::term::{Sensitivity, SizedTerm, Term, slow_limit};
+use super::term::{Sensitivity, Term, slow_limit};
 use crate::error::Error;
 use crate::gravity_gradient::constants::{LARGEST_CORRECTED, LARGEST_EFFECT, REFUSAL_FACTOR, SLOW_RATIO};
 use crate::gravity_gradient::disturbance::Disturbance;
@@ -49,9 +49,9 @@ pub(crate) enum Regime {
 
 /// The terms of one body at a level, before any is dropped.
 pub(crate) struct Terms {
-    pub(crate) all: Vec<SizedTerm>,
+    pub(crate) all: Vec<Term>,
     /// Those that the level omits.
-    pub(crate) omitted: Vec<SizedTerm>,
+    pub(crate) omitted: Vec<Term>,
     pub(crate) response: Sensitivity,
     /// Sum of the sizes of the terms that are not slow \[rad\].
     pub(crate) size: f64,
@@ -65,12 +65,12 @@ impl Terms {
         let sized = |function: fn(Level, &Inertia, i32, i32) -> (f64, f64)| -> Vec<_> {
             let of_level = |term: Term| (term, function(level, inertia, term.multiple, term.harmonic));
             let terms = Term::all(inertia).map(of_level);
-            terms.filter_map(|(term, f)| SizedTerm::new(term, f, inertia, (&response, scale))).collect()
+            terms.filter_map(|(term, f)| term.under(f, inertia, (&response, scale))).collect()
         };
         let all = sized(Level::tensor);
         let omitted = if matches!(level, Level::Paper | Level::Moving) { sized(Level::omitted) } else { Vec::new() };
         let slow_limit = slow_limit(orbit);
-        let size = all.iter().filter(|term| term.frequency.abs() > slow_limit).map(SizedTerm::size).sum();
+        let size = all.iter().filter(|term| term.frequency.abs() > slow_limit).map(Term::size).sum();
         Self { all, omitted, response, size }
     }
 }
@@ -121,7 +121,7 @@ impl<'a> Regimes<'a> {
     }
 
     /// The regime of a term.
-    pub(crate) fn of(&self, term: &SizedTerm) -> Regime {
+    pub(crate) fn of(&self, term: &Term) -> Regime {
         let (slow, size) = (self.is_slow(term), term.size());
         let enough = self.nothing.max(self.orbit.ledger.truncated);
         if self.orbit.series.is_some() && (slow || size > self.nothing) {
@@ -146,7 +146,7 @@ impl<'a> Regimes<'a> {
 
     /// The largest turn of the attitude within the span by the part of a term that is not corrected \[rad\]: first the effect of what is left out, which may refuse the
     /// scene, then the error of the correction of the harmonic nearest to resonance.
-    pub(crate) fn uncorrected(&self, term: &SizedTerm, regime: &Regime) -> [f64; 2] {
+    pub(crate) fn uncorrected(&self, term: &Term, regime: &Regime) -> [f64; 2] {
         let nearest = self.nearest(term);
         match regime {
             Regime::Exact { resonant: None, .. } => [0.0, self.corrected(term, nearest)],
@@ -160,7 +160,7 @@ impl<'a> Regimes<'a> {
 
     /// The turn that remains after the correction of the harmonic nearest to resonance. With the divisor Ω_j, which lacks the shift ξ, the phase of
     /// the correction is wrong by ξ min(span, 1/Ω_j), and the correction is linear in its own size, of which the part Ω_j span acts within the span.
-    fn corrected(&self, term: &SizedTerm, Nearest { amplitude, distance, .. }: Nearest) -> f64 {
+    fn corrected(&self, term: &Term, Nearest { amplitude, distance, .. }: Nearest) -> f64 {
         if amplitude == 0.0 {
             return 0.0;
         }
@@ -170,13 +170,13 @@ impl<'a> Regimes<'a> {
     }
 
     /// The error of the solution that vanishes at the epoch. Its phase lacks the shift ξ over the whole span, and it is linear in the turn that it makes.
-    fn epoch_solution_error(&self, term: &SizedTerm, nearest: Nearest) -> f64 {
+    fn epoch_solution_error(&self, term: &Term, nearest: Nearest) -> f64 {
         let turned = self.turned(term, nearest);
         turned * (self.shift(term) * self.orbit.duration + turned).min(1.0)
     }
 
     /// Upper estimate of the shift of a divisor: by the average torque over a part of the orbit, and of second order.
-    fn shift(&self, term: &SizedTerm) -> f64 {
+    fn shift(&self, term: &Term) -> f64 {
         self.divisors(term).steady_shift + self.whole * self.whole * term.frequency.abs()
     }
 
@@ -187,10 +187,10 @@ impl<'a> Regimes<'a> {
     /// a series. The error names the term with the largest turn.
     pub(crate) fn total<'t>(
         &self,
-        effects: impl Iterator<Item = (&'t SizedTerm, [f64; 2])>,
+        effects: impl Iterator<Item = (&'t Term, [f64; 2])>,
         allowed: f64,
     ) -> Result<f64, Error> {
-        let (mut sum, mut squares, mut largest) = (0.0, 0.0, None::<(&SizedTerm, f64)>);
+        let (mut sum, mut squares, mut largest) = (0.0, 0.0, None::<(&Term, f64)>);
         for (term, [effect, drift]) in effects {
             sum += effect.min(PI);
             squares += (effect + drift).min(PI).powi(2);
@@ -204,8 +204,8 @@ impl<'a> Regimes<'a> {
             _ => return Ok(squares.sqrt()),
         };
         Err(Error::Resonance {
-            harmonic: term.term.harmonic,
-            multiple: term.term.multiple,
+            harmonic: term.harmonic,
+            multiple: term.multiple,
             divisor: 2.0 * SLOW_RATIO * term.frequency.abs() / self.slow_limit,
             bound: 2.0 * SLOW_RATIO,
             effect,
@@ -214,18 +214,18 @@ impl<'a> Regimes<'a> {
     }
 
     /// The divisors of a term in the orbit's harmonics.
-    pub(crate) fn divisors(&self, term: &SizedTerm) -> Divisors {
-        let numbers = (term.term.harmonic, term.term.multiple);
+    pub(crate) fn divisors(&self, term: &Term) -> Divisors {
+        let numbers = (term.harmonic, term.multiple);
         Divisors::new(numbers, [term.frequency, self.orbit.mean_motion], self.is_slow(term), &self.secular)
     }
 
     /// Whether a term is too slow for a sum over time derivatives.
-    fn is_slow(&self, term: &SizedTerm) -> bool {
+    fn is_slow(&self, term: &Term) -> bool {
         term.frequency.abs() <= self.slow_limit
     }
 
     /// The turn of the attitude by a term that is not corrected at all: by the low harmonics of the orbit, or by the nearest one if that is larger.
-    pub(crate) fn whole(&self, term: &SizedTerm) -> f64 {
+    pub(crate) fn whole(&self, term: &Term) -> f64 {
         let distance = |j: i32| (term.frequency - f64::from(j) * self.orbit.mean_motion).abs();
         let distance = (-SLOW_HARMONICS..=SLOW_HARMONICS).map(distance).fold(f64::INFINITY, f64::min);
         let low = Nearest { number: 0, amplitude: 1.0, distance };
@@ -233,7 +233,7 @@ impl<'a> Regimes<'a> {
     }
 
     /// For a term with exact divisors, the harmonic whose solution vanishes at the epoch, and the size of the change by all others.
-    fn exact(&self, term: &SizedTerm, nearest: Nearest) -> (Option<i32>, f64) {
+    fn exact(&self, term: &Term, nearest: Nearest) -> (Option<i32>, f64) {
         let resonant =
             (self.corrected(term, nearest) > self.epoch_solution_error(term, nearest)).then_some(nearest.number);
         let divisors = self.divisors(term);
@@ -242,7 +242,7 @@ impl<'a> Regimes<'a> {
         (resonant, others.map(|j| self.amplitude(j) * term.size_at(divisors.smallest(j).abs())).sum())
     }
 
-    fn nearest(&self, term: &SizedTerm) -> Nearest {
+    fn nearest(&self, term: &Term) -> Nearest {
         let divisors = self.divisors(term);
         let distance = |j: i32| divisors.smallest(j).abs();
         let about = -multiple_of(self.orbit.mean_motion, term.frequency);
@@ -264,7 +264,7 @@ impl<'a> Regimes<'a> {
     }
 
     /// The turn of the attitude by a harmonic of a term: at once, and by the drift that the changes of M and L make.
-    fn turned(&self, term: &SizedTerm, Nearest { amplitude, distance, .. }: Nearest) -> f64 {
+    fn turned(&self, term: &Term, Nearest { amplitude, distance, .. }: Nearest) -> f64 {
         let Disturbance { duration, mean_motion, .. } = *self.orbit;
         let distance = (distance - self.orbit.turning()).max(0.0);
         // A harmonic of the orbit acts at every passage of the pericentre.
@@ -274,25 +274,25 @@ impl<'a> Regimes<'a> {
         // not make this error.
         let unreturned = if self.orbit.series.is_some() { unreturned(distance, duration) } else { 1.0 };
         let lasting = 0.5 * unreturned * duration + acting;
-        let (h, m) = (f64::from(term.term.harmonic.abs()), f64::from(term.term.multiple));
+        let (h, m) = (f64::from(term.harmonic.abs()), f64::from(term.multiple));
         let drifting = self.response.of_actions([m * term.action, h * term.action], lasting);
         amplitude * acting * (term.rate + drifting)
     }
 
     /// Truncation error of a sum with `orders` derivatives: the next derivative, and those after it as a geometric series, at most as much again.
-    fn rest(&self, term: &SizedTerm, orders: usize) -> f64 {
+    fn rest(&self, term: &Term, orders: usize) -> f64 {
         let [last, next] = [orders - 1, orders].map(|orders| self.next(term, orders));
         next / (1.0 - (next / last).min(0.5))
     }
 
     /// The part of a term by one derivative.
-    fn next(&self, term: &SizedTerm, orders: usize) -> f64 {
+    fn next(&self, term: &Term, orders: usize) -> f64 {
         term.size() * self.sizes[orders] / self.sizes[0] / term.frequency.abs().powi(orders as i32)
     }
 
     /// The number of derivatives in the sum of a term, and its truncation error. The sum is asymptotic: it ends where it is accurate enough, or where the error
     /// is least.
-    fn sum(&self, term: &SizedTerm) -> (usize, f64) {
+    fn sum(&self, term: &Term) -> (usize, f64) {
         let most = if self.orbit.level == Level::Paper { 1 } else { ORDERS };
         let least = || (1..=most).min_by(|&a, &b| self.next(term, a).total_cmp(&self.next(term, b)));
         let accurate = (1..most).find(|&orders| self.rest(term, orders) <= self.nothing);

@@ -77,8 +77,16 @@ pub(crate) struct Term {
     pub(crate) multiple: i32,
     /// The real f, df/dσ and d²f/dσ², without the factors 3/2 for m = 0 and −i for m = 1.
     pub(crate) function: [f64; 3],
+    /// Ω.
+    pub(crate) frequency: f64,
     /// Ω/M, and its first two derivatives with respect to σ.
-    pub(crate) frequency: [f64; 3],
+    pub(crate) per_momentum: [f64; 3],
+    /// Rate of change of the attitude by the term \[rad per unit of time\]. This and the next two are 0 before [`Term::under`].
+    pub(crate) rate: f64,
+    /// Rate of change of M or L by the term, over M and over m or h.
+    pub(crate) action: f64,
+    /// Change of the attitude through ∂Ω/∂σ, times the square of the divisor \[rad per unit of time squared\].
+    shift: f64,
 }
 
 impl Term {
@@ -88,7 +96,9 @@ impl Term {
         let combined = |[anomaly, longitude]: [f64; 2]| {
             (f64::from(harmonic) * anomaly + f64::from(multiple) * longitude) / inertia.momentum
         };
-        Self { harmonic, multiple, function, frequency: rates.map(combined) }
+        let per_momentum = rates.map(combined);
+        let frequency = inertia.momentum * per_momentum[0];
+        Self { harmonic, multiple, function, frequency, per_momentum, rate: 0.0, action: 0.0, shift: 0.0 }
     }
 
     /// The terms with m > 0, and those with m = 0 and h > 0.
@@ -100,11 +110,6 @@ impl Term {
             let harmonics = (lowest..=highest).filter(move |h| (h + multiple) % 2 == 0);
             harmonics.map(move |harmonic| Self::new(inertia, harmonic, multiple))
         })
-    }
-
-    /// Whether both are the same term.
-    pub(crate) fn is(&self, other: &Self) -> bool {
-        (self.harmonic, self.multiple) == (other.harmonic, other.multiple)
     }
 
     /// f and its derivatives with the factor 3/2 for m = 0.
@@ -134,8 +139,8 @@ impl Term {
     }
 
     /// Relative size of the change of the mean variables by the term.
-    pub(crate) fn size(&self, root: f64) -> f64 {
-        self.strength(root) / self.frequency[0].abs()
+    pub(crate) fn relative_size(&self, root: f64) -> f64 {
+        self.strength(root) / self.per_momentum[0].abs()
     }
 
     /// Relative rate of the change of the mean variables by the term, over M.
@@ -144,42 +149,27 @@ impl Term {
         let [value, slope, _] = self.weighted().map(f64::abs);
         (value + root * root * slope) * root.powi((degree - 1).max(0)) * f64::from(degree + 1)
     }
-}
 
-/// A term with the change of the attitude by it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SizedTerm {
-    pub(crate) term: Term,
-    /// Ω.
-    pub(crate) frequency: f64,
-    /// Rate of change of the attitude by the term [rad per unit of time].
-    pub(crate) rate: f64,
-    /// Rate of change of M or L by the term, over M and over m or h.
-    pub(crate) action: f64,
-    /// Change of the attitude through ∂Ω/∂σ, times the square of the divisor [rad per unit of time squared].
-    pub(crate) shift: f64,
-}
-
-impl SizedTerm {
-    /// The sizes of a term whose f and df/dσ are `function`, or `None` if it is 0. `scale` is four times the strength of the torque at the pericentre over M.
-    pub(crate) fn new(
-        term: Term,
-        function: (f64, f64),
+    /// The term with f and df/dσ of a level and the rates of change by it, or `None` if it is 0. `scale` is four times the strength of the torque at the pericentre
+    /// over M.
+    pub(crate) fn under(
+        self,
+        (value, slope): (f64, f64),
         inertia: &Inertia,
         (response, scale): (&Sensitivity, f64),
     ) -> Option<Self> {
-        let term = Term { function: [function.0, function.1, term.function[2]], ..term };
-        let [value, slope, _] = term.function.map(f64::abs);
+        let function = [value, slope, self.function[2]];
+        let [value, slope, _] = function.map(f64::abs);
         let root = inertia.sigma.sqrt();
-        let degree = term.harmonic.abs();
+        let degree = self.harmonic.abs();
         let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value };
         let further = root.powi(degree + 1);
         let by_p = 0.5 * response.gain * (falling + 2.0 * further * slope);
         let rate = scale * (root.powi(degree) * value + by_p);
-        let [frequency, by_sigma, _] = term.frequency.map(|part| inertia.momentum * part);
+        let by_sigma = inertia.momentum * self.per_momentum[1];
         let shift = scale * 0.5 * response.gain * further * value * by_sigma.abs();
-        let action = 0.5 * scale * CONTRACTED[term.multiple as usize] * root.powi(degree) * value; // 0 ≤ m ≤ 2
-        (rate > 0.0).then_some(Self { term, frequency, rate, action, shift })
+        let action = 0.5 * scale * CONTRACTED[self.multiple as usize] * root.powi(degree) * value; // 0 ≤ m ≤ 2
+        (rate > 0.0).then_some(Self { function, rate, action, shift, ..self })
     }
 
     /// Largest change of the attitude by the term \[rad\].
@@ -192,7 +182,7 @@ impl SizedTerm {
         (self.rate + self.shift / divisor) / divisor
     }
 
-    /// The change of y′ through ∂Ω/∂M for a given divisor \[rad\]. [`SizedTerm::size`] does not contain it.
+    /// The change of y′ through ∂Ω/∂M for a given divisor \[rad\]. [`Term::size`] does not contain it.
     pub(crate) fn turn_at(&self, divisor: f64) -> f64 {
         self.action / divisor * self.frequency.abs() / divisor
     }
@@ -206,14 +196,14 @@ pub(crate) fn slow_limit(orbit: &Disturbance<'_>) -> f64 {
 /// The terms that are larger than `share` of the largest and faster than `slow_limit`, a frequency.
 pub(crate) fn fast_terms(inertia: &Inertia, share: f64, slow_limit: f64) -> Vec<Term> {
     let root = inertia.root();
-    let is_fast = |term: &Term| term.frequency[0].abs() * inertia.momentum > slow_limit && term.size(root) > 0.0;
+    let is_fast = |term: &Term| term.frequency.abs() > slow_limit && term.relative_size(root) > 0.0;
     let mut terms: Vec<_> = Term::all(inertia).filter(is_fast).collect();
-    let largest = terms.iter().map(|term| term.size(root)).fold(0.0, f64::max);
-    terms.retain(|term| term.size(root) >= share * largest);
+    let largest = terms.iter().map(|term| term.relative_size(root)).fold(0.0, f64::max);
+    terms.retain(|term| term.relative_size(root) >= share * largest);
     terms
 }
 
 /// The terms that are not faster than `slow_limit`, of any size.
 pub(crate) fn slow_terms(inertia: &Inertia, slow_limit: f64) -> Vec<Term> {
-    Term::all(inertia).filter(|term| term.frequency[0].abs() * inertia.momentum <= slow_limit).collect()
+    Term::all(inertia).filter(|term| term.frequency.abs() <= slow_limit).collect()
 }
