@@ -94,7 +94,7 @@ impl OrbitHarmonics {
         sums.iter().zip(contracted).map(|(sum, part)| sum * part[0]).sum::<C64>() * -C64::i()
     }
 
-    /// A term, split into the harmonics near resonance and the rest. It comes with D = W = 0 and with the relative rate of change of the mean variables by it. A term
+    /// A term, split into the harmonics near resonance and the rest. It comes without amplitudes, and with the relative rate of change of the mean variables by it. A term
     /// without a sum over time derivatives has no rest.
     pub(crate) fn split(&self, (whole, strength): (PairTerm, f64), divisors: &Divisors) -> SplitTerm {
         let count = (self.waves.len() / 2) as i32;
