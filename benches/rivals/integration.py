@@ -1,6 +1,8 @@
 """Compare the integrated method with heyoka's integration of the same equations, in nine regimes.
 
     python benches/rivals/integration.py [--scenes 30] [--seed 1] [--tolerance 1e-10] [--no-cost] [--output docs/data/rivals-integration.csv]
+    python benches/rivals/integration.py --lanes --no-cost [...]
+    python benches/rivals/integration.py --batch
 
 Random scenes of each regime: slow, synchronous, 3:2, fast, two bodies, precessing, eccentric (up to 0.95), near the separatrix, long axis. The reference is heyoka in extended precision (80 bits, tolerance
 1e-19) with the same doubles. The table has the largest error, the number of errors above the error bound, the number of errors above the tolerance if `Plan.meets_tolerance` is True, the quantiles of bound / error, and the least
@@ -9,6 +11,11 @@ ratio of the bound without its floor of 1e-14 and an error above 2e-14.
 Cost: CPU seconds for set-up and 200 samples of one scene in each regime. andoyer's time includes its error bound. heyoka's time excludes its compilation (constants are in the equations), which
 is in the last column. "At tolerance": heyoka at the largest tolerance of a grid whose error is within the requested tolerance. "At error": the same for andoyer's own error, or heyoka's smallest
 tolerance. The engines take turns. A ratio, heyoka / andoyer, is the median of the ratios of the rounds of one run.
+
+`--lanes`: the same of members of ensembles, without two disturbing bodies.
+
+`--batch`: ensembles of 64 members (rates that differ by 1e-3) in the regimes with one fixed orbit, on one thread, against heyoka's batch mode with eight lanes at equal error, and
+against as many scenes one after another.
 """
 
 import argparse
@@ -204,28 +211,104 @@ def cost(scene, times, exact, rounds=7):
     return *ratios, median(seconds["andoyer"]), compiled
 
 
+def in_lanes(scene):
+    """The motion of a scene as the member of an ensemble."""
+    return andoyer.Ensemble(
+        [scene.body.moments], [scene.attitude], [scene.angular_velocity], orbits=scene.orbit, tolerance=scene.tolerance, span=scene.span, method="integrated"
+    )[0]
+
+
+def batch(regime, tolerance, rounds=5):
+    """Median ratios of the times of heyoka's batch mode and of single scenes to that of an ensemble, the largest error of eight members, heyoka's tolerance, and seconds of a member."""
+    random = np.random.default_rng([7, REGIMES.index(regime)])
+    members, lanes = 64, 8
+    scene = scene_of(regime, random, tolerance)
+    while not scene.solve().plan.meets_tolerance:
+        scene = scene_of(regime, random, tolerance)
+    numbers, bodies = parameters(scene)
+    rates = scene.angular_velocity * (1 + 1e-3 * random.normal(size=(members, 3)))
+    attitudes = np.repeat(scene.attitude[None], members, axis=0)
+    times = np.linspace(0, scene.span[1], SAMPLES)
+
+    def ensemble():
+        return andoyer.Ensemble(
+            np.repeat(scene.body.moments[None], members, axis=0),
+            attitudes,
+            rates,
+            orbits=scene.orbit,
+            tolerance=tolerance,
+            span=scene.span,
+            method="integrated",
+            threads=1,
+        )
+
+    reference = Reference()
+    some = [andoyer.Scene(scene.body, scene.attitude, rate, orbit=scene.orbit, span=scene.span, tolerance=tolerance) for rate in rates[:lanes]]
+    exact = np.stack([reference(one, times)[:, :4] for one in some])
+    ours = apart(ensemble().attitude(times)[:lanes], exact).max()
+    grid = np.repeat(times[:, None], lanes, axis=1)
+    for allowed in GRID:
+        start = np.concatenate([attitudes[:lanes].T, rates[:lanes].T])
+        integrator = hy.taylor_adaptive_batch(equations(bodies, lambda k: hy.expression(float(numbers[k]))), start.copy(), tol=allowed)
+
+        def group(first, integrator=integrator):
+            integrator.set_time(0.0)
+            integrator.state[:] = np.concatenate([attitudes[first : first + lanes].T, rates[first : first + lanes].T])
+            return integrator.propagate_grid(grid)[1]
+
+        if apart(np.moveaxis(group(0)[:, :4], 2, 0), exact).max() <= ours:
+            break
+    engines = {
+        "heyoka": lambda: [group(first) for first in range(0, members, lanes)],
+        "andoyer": lambda: ensemble().attitude(times),
+        "alone": lambda: [
+            andoyer.Scene(scene.body, scene.attitude, rate, orbit=scene.orbit, span=scene.span, tolerance=tolerance, method="integrated")
+            .solve()
+            .attitude(times)
+            for rate in rates
+        ],
+    }
+    seconds = {name: [] for name in engines}
+    for _ in range(rounds):
+        for name, engine in engines.items():
+            clock = time.process_time()
+            engine()
+            seconds[name].append(time.process_time() - clock)
+    ratios = [median(np.array(seconds[name]) / seconds["andoyer"]) for name in ("heyoka", "alone")]
+    return *ratios, ours, allowed, median(seconds["andoyer"]) / members
+
+
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--scenes", type=int, default=30)
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--tolerance", type=float, default=1e-10)
     options.add_argument("--no-cost", action="store_true")
+    options.add_argument("--batch", action="store_true")
+    options.add_argument("--lanes", action="store_true")
     options.add_argument("--output", type=Path)
     asked = options.parse_args()
     warnings.simplefilter("ignore", andoyer.ToleranceWarning)
+    if asked.batch:
+        print(f"{'regime':<13}{'heyoka batch':>13}{'alone':>7}{'error':>9}{'heyoka at':>11}{'us a member':>13}")
+        for regime in REGIMES:
+            if regime not in ("two bodies", "precessing"):
+                ratio, alone, error, allowed, seconds = batch(regime, asked.tolerance)
+                print(f"{regime:<13}{ratio:>13.2f}{alone:>7.2f}{error:>9.1e}{allowed:>11.0e}{1e6 * seconds:>13.0f}", flush=True)
+        return
     reference, lines, rows, bad = Reference(), [], [], 0
     lines.append(f"tolerance {asked.tolerance:g}, {asked.scenes} scenes a regime, heyoka {hy.__version__}, andoyer {andoyer.__version__}")
     lines.append(
         f"{'regime':<13}{'worst error':>12}{'its bound':>11}{'beyond bound':>14}{'beyond tolerance':>18}{'missed':>8}{'refused':>9}  {'bound/error q5, q50, q95':>26}{'least':>9}  {'at tolerance':>11}{'at error':>13}{'ms':>9}{'compiled, s':>12}"
     )
-    for regime in REGIMES:
+    for regime in (regime for regime in REGIMES if not (asked.lanes and regime == "two bodies")):
         random = np.random.default_rng([asked.seed, REGIMES.index(regime)])
         errors, bounds, beyond, missed, refused, priced = [], [], 0, 0, 0, ""
         for index in range(asked.scenes):
             scene = scene_of(regime, random, asked.tolerance)
             times = np.linspace(0, scene.span[1], SAMPLES)
             try:
-                motion = scene.solve()
+                motion = in_lanes(scene) if asked.lanes else scene.solve()
             except andoyer.TheoryError:
                 refused += 1
                 continue

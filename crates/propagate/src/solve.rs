@@ -78,4 +78,26 @@ impl Scene {
         motion.given = Some(Box::new(Given { scene, turn }));
         Ok(motion)
     }
+
+    /// The valid scene about principal axes, and what was given if it has other axes.
+    fn about_own_axes(&self) -> Result<(Self, Option<Box<Given>>), Error> {
+        let scene = self.validated()?;
+        let Some(turn) = scene.body().turn() else { return Ok((scene, None)) };
+        Ok((scene.about_principal_axes(turn), Some(Box::new(Given { scene, turn }))))
+    }
+}
+
+/// The motions of several scenes, each as [`Scene::solve`] has it but for rounding: those that are integrated are integrated together.
+pub(crate) fn disturbed(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> Vec<Result<Motion, Error>> {
+    let mut given = Vec::with_capacity(scenes.len());
+    let about_own_axes = |scene: Result<Scene, Error>| {
+        let (scene, own) = match scene.and_then(|scene| scene.about_own_axes()) {
+            Ok((scene, own)) => (Ok(scene), own),
+            Err(error) => (Err(error), None),
+        };
+        given.push(own);
+        scene
+    };
+    let motions = choose::motions(scenes.into_iter().map(about_own_axes).collect(), stop);
+    motions.into_iter().zip(given).map(|(motion, given)| motion.map(|motion| Motion { given, ..motion })).collect()
 }

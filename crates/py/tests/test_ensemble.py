@@ -270,7 +270,8 @@ BAD_ARGUMENTS = {
     "a mean motion": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"orbits": [1e-3]}, TypeError, r"orbits\[0\] must be an Orbit or None, not float"),
     "one mean motion": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"orbits": 1e-3}, TypeError, "orbits must be an Orbit or a sequence"),
     "a span that runs backwards": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"span": (1, 0)}, andoyer.InputError, "span"),
-    "a method": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"method": "series"}, TypeError, "method"),
+    "another method": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"method": "euler"}, andoyer.InputError, 'method = "euler"'),
+    "a level": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"level": "full"}, TypeError, "level"),
 }
 
 

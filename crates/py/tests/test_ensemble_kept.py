@@ -1,4 +1,4 @@
-"""Ensembles: members under a torque are solved once, with the bits of their scenes each time; members by inertia tensors."""
+"""Ensembles: members under a torque are solved once, with the bits of their scenes or, integrated, the same numbers but for rounding; members by inertia tensors."""
 
 import pickle
 
@@ -16,18 +16,30 @@ RATES = [[0, 0.01, 1], [0, 1, 0.001], [0, 0.02, 1.1], [0, 0, 0]]
 TIMES = [0.0, 500.0, 1000.0]
 
 
-def test_a_second_call_has_the_bits_of_the_scene():
+def apart(one, other):
+    """Largest angle between attitudes with the same sign."""
+    return 2 * np.linalg.norm(np.subtract(one, other), axis=-1).max()
+
+
+def test_a_second_call_has_the_bits_of_the_first_and_of_the_scene_or_its_numbers_but_for_rounding():
     ensemble = Ensemble([1, 1.02, 1.05], LEVEL, RATES, orbits=SUN, span=SPAN, tolerance=1e-6)
     motions = [Scene(Body([1, 1.02, 1.05]), LEVEL, rates, orbit=SUN, span=SPAN, tolerance=1e-6).solve() for rates in RATES]
     assert [motion.plan.method for motion in motions] == ["closed", "integrated", "closed", "integrated"]
+    first, plans = ensemble.attitude(TIMES), ensemble.plans
     for _ in range(2):
-        assert np.array_equal(ensemble.attitude(TIMES), [motion.attitude(TIMES) for motion in motions])
-        assert np.array_equal(ensemble.at(TIMES).angular_velocity, [motion.angular_velocity(TIMES) for motion in motions])
-        assert ensemble.plans == [motion.plan for motion in motions] and ensemble.errors == {}
-        assert np.array_equal(ensemble[1].attitude(TIMES), motions[1].attitude(TIMES))
-        assert np.array_equal(ensemble[1:].attitude(TIMES), ensemble.attitude(TIMES)[1:])
+        assert np.array_equal(ensemble.attitude(TIMES), first) and ensemble.plans == plans and ensemble.errors == {}
+        for index, motion in enumerate(motions):
+            attitude, plan = motion.attitude(TIMES), ensemble.plans[index]
+            if motion.plan.method == "closed":
+                assert np.array_equal(first[index], attitude) and plan == motion.plan
+                assert np.array_equal(ensemble.at(TIMES).angular_velocity[index], motion.angular_velocity(TIMES))
+            else:
+                assert apart(first[index], attitude) <= plan.error_bound + motion.plan.error_bound
+                assert (plan.method, plan.skipped) == ("integrated", motion.plan.skipped) and plan.meets_tolerance
+        assert np.array_equal(ensemble[1].attitude(TIMES), first[1])
+        assert np.array_equal(ensemble[1:].attitude(TIMES), first[1:])
     again = pickle.loads(pickle.dumps(ensemble))
-    assert again == ensemble and np.array_equal(again.attitude(TIMES), ensemble.attitude(TIMES))
+    assert again == ensemble and np.array_equal(again.attitude(TIMES), first)
 
 
 def test_a_refused_member_is_refused_each_time():
@@ -50,19 +62,23 @@ def symmetric(number):
 
 @pytest.mark.parametrize("orbits", [None, SUN])
 @pytest.mark.parametrize("number", [1, 3, 40])
-def test_members_by_tensors_have_the_bits_of_their_scenes(number, orbits):
+def test_members_by_tensors_are_their_scenes(number, orbits):
     given, generator = symmetric(number), np.random.default_rng(1)
-    rates = generator.normal(size=(number, 3))
-    ensemble = Ensemble(given, LEVEL, rates, orbits=orbits, span=(0, 30), tolerance=1e-6)
+    spins = generator.normal(size=(number, 3))
+    ensemble = Ensemble(given, LEVEL, spins, orbits=orbits, span=(0, 30), tolerance=1e-6)
     bodies = [Body.from_inertia(tensor) for tensor in given]
-    motions = [Scene(body, LEVEL, rate, orbit=orbits, span=(0, 30), tolerance=1e-6).solve() for body, rate in zip(bodies, rates, strict=True)]
+    motions = [Scene(body, LEVEL, rate, orbit=orbits, span=(0, 30), tolerance=1e-6).solve() for body, rate in zip(bodies, spins, strict=True)]
     samples = ensemble.at([0.0, 30.0])
-    assert np.array_equal(samples.attitude, [motion.attitude([0.0, 30.0]) for motion in motions])
-    assert np.array_equal(samples.angular_velocity, [motion.angular_velocity([0.0, 30.0]) for motion in motions])
+    for index, motion in enumerate(motions):
+        attitude, rates = motion.attitude([0.0, 30.0]), motion.angular_velocity([0.0, 30.0])
+        if motion.plan.method == "integrated":
+            assert apart(samples.attitude[index], attitude) <= ensemble.plans[index].error_bound + motion.plan.error_bound
+        else:
+            assert np.array_equal(samples.attitude[index], attitude) and np.array_equal(samples.angular_velocity[index], rates)
     assert np.array_equal(ensemble.inertia, given) and np.array_equal(ensemble.moments, [body.moments for body in bodies])
     assert not ensemble.inertia.flags.writeable
     again = pickle.loads(pickle.dumps(ensemble))
-    assert again == ensemble == ensemble[:] and again != Ensemble(ensemble.moments, LEVEL, rates, orbits=orbits, span=(0, 30), tolerance=1e-6)
+    assert again == ensemble == ensemble[:] and again != Ensemble(ensemble.moments, LEVEL, spins, orbits=orbits, span=(0, 30), tolerance=1e-6)
     assert np.array_equal(again[::-1].attitude(30.0), ensemble.attitude(30.0)[::-1])
     assert ensemble[number - 1].scene == motions[-1].scene
 
@@ -98,3 +114,20 @@ def test_a_bad_tensor_is_named_or_nan():
     ensemble = Ensemble(given, LEVEL, [[0.1, 0.2, 1]] * 3, errors="nan")
     assert np.isnan(ensemble.attitude(1.0)).any(axis=1).tolist() == np.isnan(ensemble.moments).any(axis=1).tolist() == [False, True, False]
     assert list(ensemble.errors) == [1]
+
+
+def test_the_method_is_that_of_all_members():
+    ensemble = Ensemble([1, 1.02, 1.05], LEVEL, RATES, orbits=[SUN, None, SUN, SUN], span=SPAN, tolerance=1e-6, method="integrated")
+    assert [plan.method for plan in ensemble.plans] == ["integrated"] * 4 and ensemble.method == "integrated"
+    assert 'method="integrated"' in repr(ensemble) and "method" not in repr(Ensemble([1, 1.02, 1.05], LEVEL, RATES))
+    assert ensemble[1:][0].plan.method == "integrated"
+    again = pickle.loads(pickle.dumps(ensemble))
+    assert again == ensemble and np.array_equal(again.attitude(TIMES), ensemble.attitude(TIMES))
+    assert ensemble != Ensemble([1, 1.02, 1.05], LEVEL, RATES, orbits=[SUN, None, SUN, SUN], span=SPAN, tolerance=1e-6)
+    for rates, attitude in zip(RATES, ensemble.attitude(TIMES), strict=True):
+        free = Scene(Body([1, 1.02, 1.05]), LEVEL, rates, span=SPAN, tolerance=1e-6, method="integrated").solve()
+        assert rates != RATES[1] or apart(attitude, free.attitude(TIMES)) < 1e-6
+    with pytest.raises(andoyer.InputError, match="method"):
+        Ensemble([1, 1.02, 1.05], LEVEL, RATES, method="euler")
+    with pytest.raises(andoyer.Error, match="span"):
+        _ = Ensemble([1, 1.02, 1.05], LEVEL, RATES, method="integrated").plans

@@ -29,10 +29,12 @@ impl Kept {
         self.motions().by_member.get(&member).map(|(solved, _)| solved.clone())
     }
 
-    /// Keeps what a member was solved to if there is room. A motion may have grown since it was kept, because the averaged equations are solved where times need
+    /// Keeps what a member was solved to if there is room, unless it was stopped. A motion may have grown since it was kept, because the averaged equations are solved where times need
     /// them; one that has no room any more is dropped.
     pub(super) fn keep(&self, member: usize, solved: Solved) {
-        self.keep_within(KEPT_MEMORY, member, solved);
+        if !matches!(*solved, Err(Error::Stopped)) {
+            self.keep_within(KEPT_MEMORY, member, solved);
+        }
     }
 
     fn keep_within(&self, most: usize, member: usize, solved: Solved) {
@@ -90,6 +92,14 @@ mod tests {
         kept.keep_within(most, 2, other.clone());
         kept.keep_within(most, 2, other.clone());
         assert_eq!(kept.motions().memory, memory(&other));
+    }
+
+    #[test]
+    fn what_was_stopped_is_not_kept() {
+        let kept = Kept::default();
+        kept.keep(0, Arc::new(Err(Error::Stopped)));
+        kept.keep(1, Arc::new(Err(Error::Separatrix)));
+        assert!(kept.get(0).is_none() && kept.get(1).is_some());
     }
 
     #[cfg(feature = "torques")]

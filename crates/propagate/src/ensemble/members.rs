@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::input::body::Body;
+use crate::input::options::Method;
 use crate::motion::solved::length;
 use crate::orbit::elements::Orbit;
 use crate::simd::halt::GOING;
@@ -46,6 +47,7 @@ pub struct Ensemble {
     /// None, one for all, or one for each.
     orbits: Vec<Option<Orbit>>,
     tolerance: f64,
+    method: Method,
     span: Option<(f64, f64)>,
     threads: Option<usize>,
     pub(super) kept: Kept,
@@ -144,6 +146,7 @@ impl Ensemble {
             on_error,
             orbits: Vec::new(),
             tolerance: 1e-12,
+            method: Method::Auto,
             span: None,
             threads: None,
             kept: Kept::default(),
@@ -215,6 +218,22 @@ impl Ensemble {
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
+        self.changed()
+    }
+
+    /// How the motions of all members are evaluated, as for [`Scene::method`](crate::Scene::method).
+    ///
+    /// ```
+    /// use andoyer_propagate::{Ensemble, Method, Orbit};
+    /// let (moments, level) = (vec![[1.0, 1.02, 1.05]; 2], vec![[0.0, 0.0, 0.0, 1.0]; 2]);
+    /// let ensemble = Ensemble::new(moments, level, vec![[0.0, 0.01, 1.0]; 2])?.method(Method::Integrated);
+    /// let ensemble = ensemble.orbits(vec![Some(Orbit::new(2e-3, 0.1)?)])?.span(0.0, 100.0);
+    /// assert_eq!(ensemble.plans()?[1].method(), Method::Integrated);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    #[must_use]
+    pub fn method(mut self, method: Method) -> Self {
+        self.method = method;
         self.changed()
     }
 
@@ -313,6 +332,11 @@ impl Ensemble {
             [of_all] => of_all.as_ref(),
             each => each.get(index)?.as_ref(),
         }
+    }
+
+    /// How the motions are evaluated.
+    pub fn asked_method(&self) -> Method {
+        self.method
     }
 
     /// The time of the state of a member.

@@ -2,20 +2,23 @@
 
 use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use crate::error::Error;
 use crate::input::body::Body;
+use crate::input::options::Method;
 use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::motion::solved::Motion;
+use crate::simd::halt::GOING;
 use crate::simd::lanes::WIDEST;
-use crate::solve::several;
+use crate::solve::{disturbed, several};
 
 use super::kept::Solved;
 use super::members::{BLOCK, Ensemble};
 
-/// Members under a gravity gradient that a thread takes at least, at 200 µs each.
-const DISTURBED_BLOCK: usize = 2;
+/// Members that are solved at once if there are orbits: those that are integrated fill the lanes of a vector, and the others are shared among the threads.
+const DISTURBED_GROUP: usize = 8;
 
 impl Ensemble {
     pub(super) fn scene(&self, index: usize) -> Result<Scene, Error> {
@@ -24,7 +27,7 @@ impl Ensemble {
             Some(tensor) => Body::from_inertia(*tensor)?,
             None => Body::new(self.moments()[index])?,
         };
-        let mut scene = Scene::new(body, state).tolerance(self.asked_tolerance());
+        let mut scene = Scene::new(body, state).tolerance(self.asked_tolerance()).method(self.asked_method());
         if let Some(&orbit) = self.orbit(index) {
             scene = scene.orbit(orbit);
         }
@@ -36,31 +39,47 @@ impl Ensemble {
         Ok(scene)
     }
 
-    /// Calls `each` with the motions of members, one after another. Their plans do not say what was skipped. There are at most [`Ensemble::group`] of them.
-    pub(super) fn each_motion(&self, members: Range<usize>, mut each: impl FnMut(&Result<Motion, Error>)) {
-        if !members.clone().all(|member| self.is_kept(member)) {
+    /// Calls `each` with the motions of members, one after another. There are at most [`Ensemble::group`] of them. The plans of free motions do not say what was skipped.
+    pub(super) fn each_motion(
+        &self,
+        members: Range<usize>,
+        stop: &AtomicBool,
+        mut each: impl FnMut(&Result<Motion, Error>),
+    ) {
+        if !members.clone().any(|member| self.is_kept(member)) {
             return several(members.map(|member| self.scene(member)).collect(), each);
         }
-        for member in members {
-            let solved = self.solved(member);
+        let kept: Vec<_> = members.clone().map(|member| self.kept.get(member)).collect();
+        let unsolved = members.clone().zip(&kept).filter(|(_, kept)| kept.is_none());
+        let mut solved = disturbed(unsolved.map(|(member, _)| self.scene(member)).collect(), stop).into_iter();
+        for (member, kept) in members.zip(kept) {
+            let Some(solved) = kept.or_else(|| solved.next().map(Arc::new)) else { continue };
             each(&solved);
-            self.kept.keep(member, solved);
+            if self.is_kept(member) {
+                self.kept.keep(member, solved);
+            }
         }
     }
 
-    /// Whether the motion of a member is kept: it takes some 100 times as long to solve if a torque acts, and not much more memory.
-    fn is_kept(&self, member: usize) -> bool {
-        self.orbit(member).is_some()
+    /// Whether the motion of a member is kept: it takes some 100 times as long to solve if a torque acts or it is integrated.
+    pub(super) fn is_kept(&self, member: usize) -> bool {
+        self.orbit(member).is_some() || self.asked_method() == Method::Integrated
     }
 
     /// The motion of a member that is kept.
     pub(super) fn solved(&self, member: usize) -> Solved {
-        self.kept.get(member).unwrap_or_else(|| Arc::new(self.scene(member).and_then(|scene| scene.solve())))
+        let solve = || disturbed(vec![self.scene(member)], &GOING).pop().unwrap_or(Err(Error::Stopped));
+        self.kept.get(member).unwrap_or_else(|| Arc::new(solve()))
     }
 
-    /// Members that are solved at once. Those under a gravity gradient are solved one by one.
+    /// Whether no member is kept.
+    fn is_free(&self) -> bool {
+        self.asked_orbits().is_empty() && self.asked_method() != Method::Integrated
+    }
+
+    /// Members that are solved at once.
     pub(super) fn group(&self) -> usize {
-        if self.asked_orbits().is_empty() { WIDEST } else { 1 }
+        if self.is_free() { WIDEST } else { DISTURBED_GROUP }
     }
 
     /// The motion of one member.
@@ -84,6 +103,6 @@ impl Ensemble {
 
     /// Members that a thread takes at least, a multiple of the group.
     pub(super) fn block(&self) -> usize {
-        if self.asked_orbits().is_empty() { BLOCK } else { DISTURBED_BLOCK }
+        if self.is_free() { BLOCK } else { DISTURBED_GROUP }
     }
 }

@@ -73,7 +73,7 @@ impl<'a> MembersRun<'a> {
         Self { since_epoch: true, ..self }
     }
 
-    /// Ends early, with [`Error::Stopped`], once another thread has set this flag: after the members that are being solved.
+    /// Ends early, with [`Error::Stopped`], once another thread has set this flag: integrations end too, other members that are being solved are finished.
     #[must_use]
     pub fn until(self, stop: &'a AtomicBool) -> Self {
         Self { stop, ..self }
@@ -86,14 +86,27 @@ impl<'a> MembersRun<'a> {
     /// - [`Error::Stopped`] where the flag is set.
     pub fn plans(&self) -> Result<Vec<Result<Plan, Error>>, Error> {
         let Self { ensemble, .. } = *self;
-        let plan = |index: usize| {
-            self.going()?;
-            ensemble.motion(index).map(|motion| motion.plan().clone())
+        let size = ensemble.group();
+        let plans = |group: usize| {
+            let members = group * size..ensemble.len().min((group + 1) * size);
+            if let Err(stopped) = self.going() {
+                return members.map(|_| Err(stopped.clone())).collect();
+            }
+            if !members.clone().any(|member| ensemble.is_kept(member)) {
+                return members.map(|index| ensemble.motion(index).map(|motion| motion.plan().clone())).collect();
+            }
+            let (mut plans, mut index) = (Vec::with_capacity(size), members.start);
+            ensemble.each_motion(members, self.stop, |motion| {
+                let plan = motion.as_ref().map(|motion| motion.plan().clone());
+                plans.push(plan.map_err(|error| Error::of_member(index, error.clone())));
+                index += 1;
+            });
+            plans
         };
-        let members = 0..ensemble.len();
+        let groups = 0..ensemble.len().div_ceil(size);
         let plans = self.on_threads(|threads| match threads {
-            1 => members.map(plan).collect(),
-            _ => members.into_par_iter().with_min_len(ensemble.block()).map(plan).collect(),
+            1 => groups.flat_map(plans).collect(),
+            _ => groups.into_par_iter().with_min_len(ensemble.block() / size).flat_map_iter(plans).collect(),
         })?;
         self.going().map(|()| plans)
     }
@@ -292,7 +305,7 @@ impl<'a> MembersRun<'a> {
             }
             let members = group * size..group * size + rows.len();
             let (mut all, mut rows) = (outcome, members.clone().zip(rows.iter_mut()));
-            ensemble.each_motion(members, |motion| {
+            ensemble.each_motion(members, self.stop, |motion| {
                 if let Some(member) = rows.next() {
                     all = told(std::mem::take(&mut all), member, motion);
                 }

@@ -17,11 +17,13 @@
 //! The interpolation error of tables is measured with two more integrations, by the neighbouring polynomials ([`ReinterpolatedSteps`]).
 
 use std::f64::consts::PI;
+use std::slice::Chunks;
 use std::sync::atomic::AtomicBool;
 
-use super::expansion::{Equations, Workspace};
+use super::expansion::{Equations, Start, Workspace};
 use super::integrator::{Precision, Runner, Step, next_end};
 use super::series::{Row, norm};
+use super::step_errors::PATTERNS;
 use crate::error::Error;
 use crate::simd::halt::going;
 use crate::simd::instruction_set::{InstructionSet, Task};
@@ -68,8 +70,7 @@ const TURNED_CORNERS: [Row; PATTERNS] = [CORNERS[1], CORNERS[2], CORNERS[3], COR
 const NOISE: f64 = 0.577_350_269_189_625_8;
 /// Where the signs of the displacements of each step begin.
 const SEED: u64 = 0x9e37_79b9_7f4a_7c15;
-/// How many displacements are integrated, and the lanes of their states.
-const PATTERNS: usize = 4;
+/// The lanes of the displaced states.
 const LANES: usize = 4 * PATTERNS;
 
 /// Distance at the end of linear growth, of an enlarged displacement \[rad\].
@@ -120,34 +121,47 @@ impl MeasuredSteps<'_> {
         by_norm.max(0.5 * drift * fastest * step.time.0.abs())
     }
 
+    /// The size of the error after a time, if it grows linearly \[rad\].
+    fn linear(&self, time: f64) -> f64 {
+        let [angle, rate] = self.displacement();
+        angle + rate * time.abs()
+    }
+
     /// The displacements of the attitudes and of the rates and constants.
-    fn patterns(&self) -> [&'static [Row; PATTERNS]; 2] {
+    pub(super) fn patterns(&self) -> [&'static [Row; PATTERNS]; 2] {
         if self.enlarged { [&TURNED_CORNERS, &CORNERS] } else { [&TURN, &WEIGHTS] }
     }
 
-    fn displaced(&self, [angle, rate]: [f64; 2]) -> Runner<LANES> {
-        let [turns, weights] = self.patterns();
+    /// The displaced states at the epoch, their displacements enlarged.
+    fn displaced(&self, scale: f64) -> Runner<LANES> {
         let first = self.steps[0].start(self.backward);
+        let states = self.displaced_states(&first, scale);
+        let lanes = |of: fn(&[Row; 2]) -> &Row| std::array::from_fn(|lane| of(&states[lane / 4])[lane % 4]);
+        Runner::new(lanes(|[attitude, _]| attitude), lanes(|[_, rates]| rates), self.backward)
+    }
+
+    /// Attitude and rates of each displaced state at the epoch.
+    pub(super) fn displaced_states(&self, first: &Start<4>, scale: f64) -> [[Row; 2]; PATTERNS] {
+        let [angle, rate] = self.displacement().map(|displacement| scale * displacement);
+        let [turns, weights] = self.patterns();
         let [x, y, z, w] = first.attitude;
-        let attitude = turns.map(|turn| {
-            let turn = turn.map(|part| 0.5 * angle * part);
-            [
+        std::array::from_fn(|state| {
+            let turn = turns[state].map(|part| 0.5 * angle * part);
+            let attitude = [
                 x + w * turn[0] + y * turn[2] - z * turn[1],
                 y + w * turn[1] + z * turn[0] - x * turn[2],
                 z + w * turn[2] + x * turn[1] - y * turn[0],
                 w - x * turn[0] - y * turn[1] - z * turn[2],
-            ]
-        });
-        let rates = std::array::from_fn(|lane| {
-            let own = first.rates[lane % 4];
-            own + rate * weights[lane / 4][lane % 4] * 1.0_f64.copysign(own)
-        });
-        Runner::new(std::array::from_fn(|lane| attitude[lane / 4][lane % 4]), rates, self.backward)
+            ];
+            let own = first.rates;
+            let rates =
+                std::array::from_fn(|lane| own[lane] + rate * weights[state][lane] * 1.0_f64.copysign(own[lane]));
+            [attitude, rates]
+        })
     }
 
     /// The distance of the displaced states \[rad\].
-    fn distance(&self, runner: &Runner<LANES>, target: &Step) -> f64 {
-        let attitudes: [Row; PATTERNS] = runner.attitudes();
+    fn distance(&self, attitudes: &[Row; PATTERNS], target: &Step) -> f64 {
         if !self.enlarged {
             return attitudes.iter().map(|displaced| angle(&target.attitude, displaced)).fold(0.0, worse);
         }
@@ -159,53 +173,113 @@ impl MeasuredSteps<'_> {
     }
 }
 
+/// The comparisons of the displaced states of a motion, one after another.
+pub(super) struct Comparisons<'a> {
+    steps: MeasuredSteps<'a>,
+    groups: Chunks<'a, Step>,
+    group: &'a [Step],
+    /// How many times the displacements are enlarged.
+    pub(super) scale: f64,
+    bound: f64,
+    profile: Profile,
+    pub(super) random: u64,
+}
+
+impl<'a> Comparisons<'a> {
+    pub(super) fn new(steps: MeasuredSteps<'a>) -> Self {
+        let last = steps.steps[steps.steps.len() - 1].time.0;
+        let scale = if steps.enlarged { ENLARGED / steps.linear(last) } else { 1.0 };
+        let mut groups = steps.steps[1..].chunks(stride(steps.steps));
+        let group = groups.next().unwrap_or_default();
+        Self { steps, groups, group, scale, bound: 0.0, profile: Profile::new(), random: SEED }
+    }
+
+    /// The precision of the displaced states.
+    pub(super) fn precision(&self) -> Precision {
+        self.steps.precision.shorter(if self.steps.enlarged { LONGER } else { SHORTER })
+    }
+
+    /// The step of the motion at the next comparison; none after the last.
+    pub(super) fn target(&self) -> Option<&'a Step> {
+        self.group.last()
+    }
+
+    /// Displacements of the ratios of the moments and of each torque.
+    pub(super) fn constants(&self) -> [f64; 2] {
+        CONSTANTS.map(|error| self.scale * error)
+    }
+
+    /// Displacements of a step relative to its rounding errors.
+    pub(super) fn noise(&self) -> [f64; 2] {
+        self.steps.noise.map(|noise| noise * self.scale * if self.steps.enlarged { NOISE } else { 1.0 })
+    }
+
+    /// Whether the states have not been lost.
+    pub(super) fn holds(&self) -> bool {
+        self.bound < PI
+    }
+
+    /// The displaced states are not finite.
+    pub(super) fn lose(&mut self) {
+        self.bound = PI;
+    }
+
+    /// Compares the states at the target. Returns the factor by which their distances become smaller, or `None` if an enlarged displacement grew beyond
+    /// [`UNSCALED`].
+    pub(super) fn compare(&mut self, attitudes: &[Row; PATTERNS]) -> Option<f64> {
+        let Some(target) = self.target() else { return Some(1.0) };
+        let Self { steps, scale, .. } = self;
+        self.bound = self.group.iter().map(|step| steps.drift(step)).fold(self.bound, f64::max);
+        let distance = steps.distance(attitudes, target);
+        let grown = distance / *scale;
+        let safety = (SAFETY[0] * grown / steps.linear(target.time.0)).clamp(SAFETY[0], SAFETY[1]);
+        self.bound = if grown < LOST { self.bound.max(safety * grown + FLOOR) } else { PI };
+        self.profile.push((target.time.0, self.bound.min(PI)));
+        self.group = self.groups.next().unwrap_or_default();
+        if steps.enlarged && (distance.is_nan() || distance >= UNSCALED) {
+            return None;
+        }
+        let factor = if steps.enlarged && distance >= FAR { SMALLER } else { 1.0 };
+        self.scale *= factor;
+        Some(factor)
+    }
+
+    pub(super) fn profile(self) -> Profile {
+        self.profile
+    }
+}
+
 impl Task for MeasuredSteps<'_> {
     /// `None` if an enlarged displacement grows beyond [`UNSCALED`].
     type Output = Result<Option<Profile>, Error>;
 
     #[inline(always)]
     fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
-        let displacement = self.displacement();
-        let Self { precision, steps, noise, backward, enlarged, stop, .. } = self;
-        let linear = |time: f64| displacement[0] + displacement[1] * time.abs();
-        let mut scale = if enlarged { ENLARGED / linear(steps[steps.len() - 1].time.0) } else { 1.0 };
-        let constants = |scale: f64| self.equations.displaced(CONSTANTS.map(|error| scale * error), self.patterns()[1]);
-        let noise = noise.map(|noise| noise * if enlarged { NOISE } else { 1.0 });
-        let mut equations = constants(scale);
-        let mut runner = self.displaced(displacement.map(|displacement| scale * displacement));
-        let precision = precision.shorter(if enlarged { LONGER } else { SHORTER });
+        let Self { backward, enlarged, stop, .. } = self;
+        let mut comparisons = Comparisons::new(self);
+        let constants = |constants: [f64; 2]| self.equations.displaced(constants, self.patterns()[1]);
+        let mut equations = constants(comparisons.constants());
+        let mut runner = self.displaced(comparisons.scale);
+        let precision = comparisons.precision();
         let mut workspace = Workspace::new(&equations);
-        let (mut profile, mut bound) = (Profile::new(), 0.0_f64);
-        let mut random = SEED;
-        for group in steps[1..].chunks(stride(steps)) {
-            let Some(target) = group.last() else { continue };
-            while bound < PI && runner.time != target.time {
+        while let Some(target) = comparisons.target() {
+            while comparisons.holds() && runner.time != target.time {
                 going(stop).map_err(|_| Error::Stopped)?;
                 let end = next_end(&equations, runner.time.0, target.time, backward);
                 if runner.advance(simd, (&equations, precision), end, &mut workspace).is_nan() {
-                    bound = PI;
+                    comparisons.lose();
                 }
-                runner.disturb(noise.map(|noise| scale * noise), &mut random);
+                runner.disturb(comparisons.noise(), &mut comparisons.random);
             }
-            bound = group.iter().map(|step| self.drift(step)).fold(bound, f64::max);
-            let distance = self.distance(&runner, target);
-            let grown = distance / scale;
-            let safety = (SAFETY[0] * grown / linear(target.time.0)).clamp(SAFETY[0], SAFETY[1]);
-            bound = if grown < LOST { bound.max(safety * grown + FLOOR) } else { PI };
-            profile.push((target.time.0, bound.min(PI)));
-            if enlarged && (distance.is_nan() || distance >= UNSCALED) {
-                return Ok(None);
-            }
-            if enlarged && bound < PI {
-                let factor = if distance >= FAR { SMALLER } else { 1.0 };
+            let Some(factor) = comparisons.compare(&runner.attitudes()) else { return Ok(None) };
+            if enlarged && comparisons.holds() {
                 if factor < 1.0 {
-                    scale *= factor;
-                    equations = constants(scale);
+                    equations = constants(comparisons.constants());
                 }
                 runner.move_to(&target.start(backward), factor);
             }
         }
-        Ok(Some(profile))
+        Ok(Some(comparisons.profile()))
     }
 }
 

@@ -6,6 +6,8 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+
 use super::series::{GRAVITY, RECIPROCALS, ROWS, Row, Scalars, Series, ZERO, add_scaled, product};
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
@@ -31,16 +33,16 @@ pub(super) struct Conic {
     still: [(f64, f64); 2],
     /// Rates of node and argument in the unit of the integration.
     rates: [f64; 2],
-    mean_motion: f64,
-    eccentricity: f64,
-    root: f64,
+    pub(super) mean_motion: f64,
+    pub(super) eccentricity: f64,
+    pub(super) root: f64,
     /// The mean anomaly of the singularity above the pericentre, over the imaginary unit.
-    singularity: f64,
+    pub(super) singularity: f64,
     tilt: (f64, f64),
     /// The directions to the pericentre and a quarter turn further, inertial, at the epoch.
     axes: [Row; 2],
     /// The series is `strength` times this power of the distance times the position: √(3μ) and −5/2 for the gravity gradient.
-    strength: f64,
+    pub(super) strength: f64,
     power: f64,
     /// Exponent of the unit of time.
     exponent: i32,
@@ -73,6 +75,22 @@ impl Conic {
             power,
             exponent,
         }
+    }
+
+    /// The axes of the orbit, if it is an ellipse that does not precess.
+    pub(super) fn fixed_axes(&self) -> Option<UnitQuaternion<f64>> {
+        if self.hyperbola.is_some() || self.rates != [0.0; 2] {
+            return None;
+        }
+        let [first, second] = self.axes.map(|[x, y, z, _]| Vector3::new(x, y, z));
+        let axes = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[first, second, first.cross(&second)]));
+        Some(UnitQuaternion::new_normalize(UnitQuaternion::from_rotation_matrix(&axes).into_inner()))
+    }
+
+    /// The mean anomaly a time after the epoch; that of an ellipse is in [−π, π].
+    #[inline(always)]
+    pub(super) fn mean_at(&self, (high, low): (f64, f64)) -> f64 {
+        self.mean((scaled(high, -self.exponent), scaled(low, -self.exponent))).1
     }
 
     #[inline(always)]
@@ -186,8 +204,7 @@ impl Conic {
 
     /// The series of the factor and the power of the distance.
     pub(super) fn factor<S: InstructionSet>(&self, simd: S, (high, low): (f64, f64), order: usize) -> Scalars {
-        let elapsed = (scaled(high, -self.exponent), scaled(low, -self.exponent));
-        self.conic(simd, self.mean(elapsed).1, (order, &IN_PLANE), &mut ZERO.clone()).factor
+        self.conic(simd, self.mean_at((high, low)), (order, &IN_PLANE), &mut ZERO.clone()).factor
     }
 
     /// Whole turns of the mean anomaly since the epoch, and the angle beyond them.

@@ -6,18 +6,17 @@ use std::sync::atomic::AtomicBool;
 use andoyer_double::two_sum;
 use pulp::Arch;
 
-use super::bound::{FLOOR, INPUT, MeasuredSteps, Profile, ReinterpolatedSteps, SAFETY, with_interpolation};
+use super::bound::{FLOOR, MeasuredSteps, Profile, ReinterpolatedSteps, with_interpolation};
 use super::expansion::Equations;
-use super::integrator::{KeptSteps, Precision, ROUNDING, Runner, Side, Step};
+use super::integrator::{KeptSteps, Precision, Runner, Side, Step};
 use super::path_series::PathSeries;
 use super::rates::{covered, rates_of_orbit, rates_of_sources, rates_of_table, too_coarse};
 use super::series::{Row, largest};
+use super::step_errors::StepErrors;
 use super::torques::Torques;
 use crate::error::Error;
 use crate::input::scene::Scene;
-use crate::input::torque::Torque;
 use crate::motion::plan::IntegrationPlan;
-use crate::motion::verification_cost::VerificationCost;
 use crate::numerics::scaling::{exponent, scaled};
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::simd::instruction_set::{dispatch, dispatch_few};
@@ -34,13 +33,6 @@ const CAREFUL: f64 = 0.06;
 const FINER: f64 = 0.05;
 /// A second integration is made if it may meet the tolerance, or if the errors of the first exceed its rounding errors by this factor.
 const WORTHWHILE: f64 = 2.0;
-
-/// Steps of a few milliseconds.
-const BRIEF: f64 = 4e3;
-/// Steps in a radian of the fastest rate, if passages of the pericentre have made the rotation four times as fast.
-const SPUN_UP: f64 = 8.0;
-/// Length of a step \[rad\], from below.
-const STEP: f64 = 0.65;
 
 /// A motion by integration. Times are those from the epoch in its own unit.
 #[derive(Clone, Debug)]
@@ -62,7 +54,18 @@ impl Integrated {
     /// The motion of a scene about principal axes over its span.
     pub(crate) fn new(scene: &Scene, reason: &str, stop: &AtomicBool) -> Result<Self, Error> {
         let problem = Problem::new(scene, reason)?;
-        Self::of(&problem, scene, stop).map_err(|error| match error {
+        let first = problem.solved(problem.first_error(), stop);
+        Self::of(&problem, scene, first.and_then(|first| problem.repeated(first, stop)), stop)
+    }
+
+    /// From the integration whose error bound counts.
+    pub(super) fn of(
+        problem: &Problem,
+        scene: &Scene,
+        measured: Result<MeasuredMotion, Error>,
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
+        measured.and_then(|measured| Self::known(problem, scene, measured, stop)).map_err(|error| match error {
             // In the units of the scene.
             Error::SpunUp { time, rate, steps, bound } => Error::SpunUp {
                 time: scene.state().epoch + scaled(time, -problem.exponent),
@@ -85,20 +88,13 @@ impl Integrated {
         Ok(problem.motion(precision.order, [before?.0, after?.0], (f64::INFINITY, None)))
     }
 
-    fn of(problem: &Problem, scene: &Scene, stop: &AtomicBool) -> Result<Self, Error> {
-        let tolerance = scene.asked_tolerance();
-        let first = problem.first_error();
-        let (mut motion, mut profiles, share) = problem.solved(first, stop)?;
-        // Shorter steps leave the interpolation of a table as it is, and rounding errors.
-        let error = motion.uninterpolated.unwrap_or(motion.error);
-        let useful = share > WORTHWHILE || error < share * tolerance;
-        if error > tolerance && useful && first > FINEST {
-            let second = (FINER * first * tolerance / error).clamp(FINEST, first);
-            (motion, profiles, _) = problem.solved(second, stop)?;
-        }
+    /// The motion, unless nothing is known of it at the end of the span.
+    fn known(problem: &Problem, scene: &Scene, measured: MeasuredMotion, stop: &AtomicBool) -> Result<Self, Error> {
+        let MeasuredMotion { motion, profiles, .. } = measured;
         if motion.error < PI {
             return Ok(motion);
         }
+        let (first, tolerance) = (problem.first_error(), problem.tolerance);
         if let (Some(_), Some(error)) = (motion.uninterpolated, too_coarse(scene, motion.reach)) {
             return Err(error);
         }
@@ -138,41 +134,19 @@ impl Integrated {
     }
 }
 
-/// A guess of the error bound, and about how many steps there will be: for the choice of a method.
-///
-/// The guess has the parts of the bound that a regular motion has without truncation errors: the rounded state at the epoch, and the rounding of ω × Iω in each
-/// step. The errors of the rates add up by chance and turn the body ever after. For scenes of which the theory holds the guess is 0.7 of the bound in the
-/// median, and 0.3 to 1.2 of it in 90 % of them.
-pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
-    let problem = Problem::new(scene, "").ok()?;
-    let phase = problem.phase();
-    let rates = INPUT + ROUNDING[1] * problem.gyration() * (STEP * phase).sqrt();
-    Some((FLOOR + SAFETY[0] * rates * phase, problem.most_steps()))
+/// A motion by steps of a relative error, with its error bounds before and after the epoch, and the errors of all steps relative to those by rounding alone.
+pub(super) struct MeasuredMotion {
+    relative: f64,
+    motion: Integrated,
+    profiles: [Profile; 2],
+    share: f64,
 }
 
-/// Whether an integration takes some milliseconds at most, even if passages of the pericentre spin the body up.
-pub(crate) fn is_brief(scene: &Scene) -> bool {
-    // A constant torque may spin it up to any rate.
-    scene.asked_torques().is_empty()
-        && Problem::new(scene, "").is_ok_and(|problem| {
-            let longest = problem.ends[0].0.abs().max(problem.ends[1].0.abs());
-            problem.most_steps() + SPUN_UP * problem.fastest * longest < BRIEF
-        })
-}
-
-/// The cost of a verification of a motion under torques over the span of its scene; `None` without a span.
-pub(crate) fn verification_cost(scene: &Scene) -> Option<VerificationCost> {
-    let polynomials = scene.asked_torques().iter().filter(|torque| matches!(torque, Torque::Polynomial(_))).count();
-    let bodies = scene.asked_disturbing().len() + polynomials;
-    if bodies == 0 && scene.asked_torques().is_empty() {
-        return VerificationCost::over_span(scene);
+impl MeasuredMotion {
+    /// The one with the smaller error bound.
+    pub(super) fn or_better(self, other: Self) -> Self {
+        if other.motion.error < self.motion.error { other } else { self }
     }
-    let ((start, stop), epoch) = (scene.asked_span()?, scene.state().epoch);
-    let sides = [(epoch - start).max(0.0), (stop - epoch).max(0.0)];
-    // `prospect` counts the rotation on the longer side, and the passages on both.
-    let (_, steps) = prospect(scene)?;
-    let longer = sides[0].max(sides[1]).max(f64::MIN_POSITIVE);
-    Some(VerificationCost { steps: steps * (sides[0] + sides[1]) / longer, bodies })
 }
 
 /// The equations with the state and the times.
@@ -183,11 +157,11 @@ pub(super) struct Problem {
     pub(super) exponent: i32,
     tolerance: f64,
     /// The largest of all rates, that at the pericentre among them.
-    fastest: f64,
+    pub(super) fastest: f64,
     /// The largest of the secular rates.
     secular: f64,
     /// From the epoch, in double-double and the unit of the integration.
-    ends: [(f64, f64); 2],
+    pub(super) ends: [(f64, f64); 2],
     reach: [f64; 2],
     /// Number of torques beside the gravity gradient.
     torques: usize,
@@ -255,7 +229,7 @@ impl Problem {
     }
 
     /// Radians of the fastest rate over the longer side.
-    fn phase(&self) -> f64 {
+    pub(super) fn phase(&self) -> f64 {
         let longest = self.ends[0].0.abs().max(self.ends[1].0.abs());
         let [x, y, z, _] = self.rates;
         longest * x.hypot(y).hypot(z).max(self.equations.scale)
@@ -270,7 +244,7 @@ impl Problem {
     }
 
     /// ω × Iω in Euler's equations at the epoch, relative to the square of the rates.
-    fn gyration(&self) -> f64 {
+    pub(super) fn gyration(&self) -> f64 {
         let [x, y, z, _] = self.rates;
         let square = x * x + y * y + z * z;
         let products = [y * z, z * x, x * y, 0.0];
@@ -284,7 +258,12 @@ impl Problem {
     }
 
     /// The steps before the epoch, 0, or after it, 1, and where they end.
-    fn steps(&self, side: usize, precision: Precision, stop: &AtomicBool) -> Result<(Side, Runner<4>), Error> {
+    pub(super) fn steps(
+        &self,
+        side: usize,
+        precision: Precision,
+        stop: &AtomicBool,
+    ) -> Result<(Side, StepErrors), Error> {
         let (equations, target) = (&self.equations, self.ends[side]);
         let runner = Runner::new(self.attitude, self.rates, side == 0);
         dispatch_few(Arch::new(), KeptSteps { equations, precision, runner, target, stop })
@@ -296,31 +275,66 @@ impl Problem {
         Integrated { equations: self.equations.clone(), order, sides, exponent, reach, error, uninterpolated, torques }
     }
 
-    /// By steps of this relative error, with the error bounds before and after the epoch, and the errors of all steps relative to those by rounding alone.
-    fn solved(&self, error: f64, stop: &AtomicBool) -> Result<(Integrated, [Profile; 2], f64), Error> {
+    /// The first integration, or a second one with shorter steps where this has the smaller error bound.
+    pub(super) fn repeated(&self, first: MeasuredMotion, stop: &AtomicBool) -> Result<MeasuredMotion, Error> {
+        match self.second_error(&first) {
+            Some(error) => Ok(first.or_better(self.solved(error, stop)?)),
+            None => Ok(first),
+        }
+    }
+
+    /// The relative error of the steps of a second integration, if the first misses the tolerance and it may come nearer.
+    pub(super) fn second_error(&self, first: &MeasuredMotion) -> Option<f64> {
+        let MeasuredMotion { relative, motion, share, .. } = first;
+        // Shorter steps leave the interpolation of a table as it is, and rounding errors.
+        let error = motion.uninterpolated.unwrap_or(motion.error);
+        let useful = *share > WORTHWHILE || error < share * self.tolerance;
+        let needed = error > self.tolerance && useful && *relative > FINEST;
+        needed.then(|| (FINER * relative * self.tolerance / error).clamp(FINEST, *relative))
+    }
+
+    /// By steps of this relative error.
+    fn solved(&self, error: f64, stop: &AtomicBool) -> Result<MeasuredMotion, Error> {
         let precision = Precision::of(error);
-        let mut sides = [Side::default(), Side::default()];
-        let mut profiles = [Profile::new(), Profile::new()];
-        let (mut bound, mut uninterpolated, mut share) = (FLOOR, FLOOR, 1.0_f64);
-        for side in 0..2 {
-            let backward = side == 0;
-            let (kept, runner) = self.steps(side, precision, stop)?;
-            share = runner.systematic_share().into_iter().fold(share, f64::max);
-            if kept.steps.len() > 1 {
-                let largest = |profile: &Profile| profile.last().map_or(FLOOR, |(_, error)| *error);
-                let mut profile = self.measured(&kept.steps, (precision, &runner), backward, stop)?;
-                uninterpolated = uninterpolated.max(largest(&profile));
-                if self.tabulated() {
-                    with_interpolation(&mut profile, &self.departures(&kept.steps, precision, backward, stop)?);
-                }
-                bound = bound.max(largest(&profile));
-                profiles[side] = profile;
+        let [before, after] = [0, 1].map(|side| self.steps(side, precision, stop));
+        let kept = [before?, after?];
+        let [before, after] = [0, 1].map(|side| {
+            let (Side { steps, .. }, errors) = &kept[side];
+            if steps.len() > 1 {
+                self.measured(steps, (precision, errors), side == 0, stop)
+            } else {
+                Ok(Profile::new())
             }
-            sides[side] = kept;
+        });
+        self.with_bounds((precision, error), kept, [before?, after?], stop)
+    }
+
+    /// The motion by steps of this relative error before and after the epoch, with the error bounds that the displaced states give.
+    pub(super) fn with_bounds(
+        &self,
+        (precision, relative): (Precision, f64),
+        kept: [(Side, StepErrors); 2],
+        mut profiles: [Profile; 2],
+        stop: &AtomicBool,
+    ) -> Result<MeasuredMotion, Error> {
+        let largest = |profile: &Profile| profile.last().map_or(FLOOR, |(_, error)| *error);
+        let (mut bound, mut uninterpolated, mut share) = (FLOOR, FLOOR, 1.0_f64);
+        for (side, ((Side { steps, .. }, errors), profile)) in kept.iter().zip(&mut profiles).enumerate() {
+            share = errors.systematic_share().into_iter().fold(share, f64::max);
+            uninterpolated = uninterpolated.max(largest(profile));
+            if self.tabulated() && steps.len() > 1 {
+                with_interpolation(profile, &self.departures(steps, precision, side == 0, stop)?);
+            }
+            bound = bound.max(largest(profile));
         }
         let dominated = bound > self.tolerance && 2.0 * uninterpolated < bound;
         let bounds = (bound, dominated.then_some(uninterpolated));
-        Ok((self.motion(precision.order, sides, bounds), profiles, share))
+        Ok(MeasuredMotion {
+            relative,
+            motion: self.motion(precision.order, kept.map(|(side, _)| side), bounds),
+            profiles,
+            share,
+        })
     }
 
     /// The latest time at which an integration up to there meets the tolerance. The number of its steps is doubled, and then found to an eighth. The bound of a longer
@@ -337,7 +351,7 @@ impl Problem {
             let mut ends = [(0.0, 0.0); 2];
             ends[side] = step.time;
             let shorter = Self { equations: self.equations.clone(), ends, ..*self };
-            Ok(shorter.solved(error, stop)?.0.error <= tolerance)
+            Ok(shorter.solved(error, stop)?.motion.error <= tolerance)
         };
         let (mut held, mut more) = (0, 1);
         while holds(held + more)? {
@@ -353,31 +367,41 @@ impl Problem {
     }
 
     /// The error bound of the steps in one direction, without the interpolation of tables.
-    fn measured(
+    pub(super) fn measured(
         &self,
         steps: &[Step],
-        (precision, runner): (Precision, &Runner<4>),
+        (precision, errors): (Precision, &StepErrors),
         backward: bool,
         stop: &AtomicBool,
     ) -> Result<Profile, Error> {
-        let phase = self.phase();
-        let coarse = Precision::of((ENLARGED_ERROR / (10.0 + phase * phase)).max(FINEST));
-        let enlarged = MeasuredSteps {
-            equations: &self.equations,
-            precision: coarse,
-            steps,
-            errors: runner.errors(),
-            noise: runner.systematic_share(),
-            backward,
-            enlarged: true,
-            stop,
-        };
+        let enlarged = self.enlarged(steps, errors, backward, stop);
         let exact = MeasuredSteps { precision, enlarged: false, ..enlarged };
-        let profile = if coarse.order < precision.order { dispatch(Arch::new(), enlarged)? } else { None };
+        let profile = if enlarged.precision.order < precision.order { dispatch(Arch::new(), enlarged)? } else { None };
         Ok(match profile {
             Some(profile) => profile,
             None => dispatch(Arch::new(), exact)?.unwrap_or_default(),
         })
+    }
+
+    /// The steps in one direction, to be measured by enlarged displacements.
+    pub(super) fn enlarged<'a>(
+        &'a self,
+        steps: &'a [Step],
+        errors: &StepErrors,
+        backward: bool,
+        stop: &'a AtomicBool,
+    ) -> MeasuredSteps<'a> {
+        let phase = self.phase();
+        MeasuredSteps {
+            equations: &self.equations,
+            precision: Precision::of((ENLARGED_ERROR / (10.0 + phase * phase)).max(FINEST)),
+            steps,
+            errors: errors.all(),
+            noise: errors.systematic_share(),
+            backward,
+            enlarged: true,
+            stop,
+        }
     }
 
     /// The angles between the motion and those with the two neighbouring interpolations.

@@ -8,6 +8,7 @@ use andoyer_double::two_sum;
 
 use super::expansion::{Equations, Start, Workspace};
 use super::series::{Coefficients, MAX, Row, StateLanes, four, largest, norm};
+use super::step_errors::{PATTERNS, ROUNDING, RandomSigns, StepErrors, StepSizes, moved};
 use crate::error::Error;
 use crate::simd::halt::going;
 use crate::simd::instruction_set::{InstructionSet, Task};
@@ -24,14 +25,9 @@ const TYPICAL: usize = MOST_STEPS / 64;
 const LONGEST_STEP: f64 = 4.0;
 /// Steps during which a body must rotate too fast for the rest of the span before it is refused: within a passage of a pericentre it may do so for some hundreds.
 const SUSTAINED: usize = 1 << 14;
-/// Sum of the terms after the last one, relative to the last one: steps are e^−2 of the radius of convergence, so the sum is 0.16.
-const OMITTED: f64 = 0.2;
 /// A step is at most this part of the radius of convergence of each torque. The coefficients of the motion show a torque only where it exceeds the rounding
 /// errors: the steps towards a pericentre would pass over it where it does not. Where they show it, they give shorter steps.
 const NEAREST: f64 = 0.5;
-/// Relative rounding errors of a torque and of ω × Iω.
-pub(super) const ROUNDING: [f64; 2] = [4.0 * 1.2e-16, 2.0 * 1.2e-16];
-
 /// The start of a step: 72 bytes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
@@ -60,6 +56,20 @@ pub(super) struct Side {
     pub(super) coefficients: Vec<Coefficients>,
 }
 
+impl Side {
+    /// With room for so many steps of an order: vectors that grow are copied again and again.
+    pub(super) fn with_room(steps: usize, order: usize) -> Self {
+        Self { steps: Vec::with_capacity(steps), coefficients: Vec::with_capacity(steps * (order + 1)) }
+    }
+
+    /// Without the room that was not needed.
+    pub(super) fn fitted(mut self) -> Self {
+        self.steps.shrink_to_fit();
+        self.coefficients.shrink_to_fit();
+        self
+    }
+}
+
 /// The order and the lengths of steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Precision {
@@ -72,8 +82,29 @@ impl Precision {
     /// For a relative error of a step (Jorba and Zou, eq. 3-7).
     pub(super) fn of(error: f64) -> Self {
         let order = (-0.5 * error.ln()).ceil() + 1.0;
-        let order = (order as usize).clamp(4, MAX);
+        Self::of_order((order as usize).clamp(4, MAX))
+    }
+
+    fn of_order(order: usize) -> Self {
         Self { order, shrinkage: -2.0 - 0.7 / (order - 1) as f64 }
+    }
+
+    /// The length of a step, from the sizes of the coefficients of the last two orders, relative to the first, and the radius of convergence of the torques.
+    #[inline(always)]
+    pub(super) fn length(self, sizes: [f64; 2], radius: f64) -> f64 {
+        let [before, last] =
+            [(sizes[0], self.order - 1), (sizes[1], self.order)].map(|(size, k)| -size.ln() / k as f64);
+        (before.min(last) + self.shrinkage).exp().min(NEAREST * radius)
+    }
+
+    /// The next even order, if it is odd.
+    pub(super) fn of_even_order(self) -> Self {
+        Self::of_order(self.order.next_multiple_of(2).min(MAX))
+    }
+
+    /// The largest relative error of a step for which the order is enough.
+    pub(super) fn error(self) -> f64 {
+        (-2.0 * (self.order as f64 - 1.0)).exp()
     }
 
     /// With steps of this length relative to those before.
@@ -91,11 +122,7 @@ pub(super) struct Runner<const W: usize> {
     attitude_rest: StateLanes<W>,
     rates: StateLanes<W>,
     rates_rest: StateLanes<W>,
-    /// Sums of squares of the rounding errors, and sums of the errors that do not change their sign by chance, of attitude \[rad\] and rates.
-    rounded: [f64; 2],
-    systematic: [f64; 2],
-    /// Rounding errors of the last step.
-    last: [f64; 2],
+    pub(super) errors: StepErrors,
 }
 
 impl<const W: usize> Runner<W> {
@@ -108,44 +135,13 @@ impl<const W: usize> Runner<W> {
             attitude_rest: none,
             rates,
             rates_rest: none,
-            rounded: [0.0; 2],
-            systematic: [0.0; 2],
-            last: [0.0; 2],
-        }
-    }
-
-    /// Moves the mean of the states to one state, and multiplies their distances from the mean by a factor.
-    pub(super) fn move_to(&mut self, to: &Start<4>, factor: f64) {
-        let share = 4.0 / W as f64;
-        let mean = |lanes: &StateLanes<W>, lane: usize| share * (lane..W).step_by(4).map(|at| lanes[at]).sum::<f64>();
-        let means: [[f64; 2]; 4] = std::array::from_fn(|lane| [mean(&self.attitude, lane), mean(&self.rates, lane)]);
-        for lane in 0..W {
-            let [attitude, rate] = means[lane % 4];
-            self.attitude[lane] = to.attitude[lane % 4] + factor * (self.attitude[lane] - attitude);
-            self.rates[lane] = to.rates[lane % 4] + factor * (self.rates[lane] - rate);
-        }
-        for at in (0..W).step_by(4) {
-            let norm = norm(&four(&self.attitude, at));
-            self.attitude[at..at + 4].iter_mut().for_each(|x| *x /= norm);
+            errors: StepErrors::default(),
         }
     }
 
     /// The attitude of each state.
     pub(super) fn attitudes<const STATES: usize>(&self) -> [Row; STATES] {
         std::array::from_fn(|state| four(&self.attitude, 4 * state))
-    }
-
-    /// Estimates of the errors of attitude \[rad\] and rates that all steps leave together.
-    pub(super) fn errors(&self) -> [f64; 2] {
-        std::array::from_fn(|i| self.rounded[i].sqrt() + self.systematic[i])
-    }
-
-    /// Errors of attitude and rates by all steps relative to those by rounding alone, 1 or more.
-    pub(super) fn systematic_share(&self) -> [f64; 2] {
-        std::array::from_fn(|i| {
-            let rounded = self.rounded[i].sqrt();
-            if rounded > 0.0 { 1.0 + self.systematic[i] / rounded } else { 1.0 }
-        })
     }
 
     /// Makes one step, to the target at most. Returns the length that the step has without a target, or NaN if the state is not finite.
@@ -166,17 +162,16 @@ impl<const W: usize> Runner<W> {
     pub(super) fn expand<S: InstructionSet>(
         &self,
         simd: S,
-        (equations, Precision { order, shrinkage }): (&Equations<W>, Precision),
+        (equations, precision): (&Equations<W>, Precision),
         workspace: &mut Workspace<W>,
     ) -> f64 {
+        let order = precision.order;
         let start = Start { time: self.time, backward: self.backward, attitude: self.attitude, rates: self.rates };
         workspace.expand(simd, equations, &start, order);
         let scale = largest(&self.rates).max(equations.scale);
-        let [before, last] = [order - 1, order].map(|k| {
-            let ratio = (largest(&workspace.rates[k]) / scale).max(largest(&workspace.attitude[k]));
-            -ratio.ln() / k as f64
-        });
-        (before.min(last) + shrinkage).exp().min(NEAREST * workspace.radius)
+        let sizes =
+            [order - 1, order].map(|k| (largest(&workspace.rates[k]) / scale).max(largest(&workspace.attitude[k])));
+        precision.length(sizes, workspace.radius)
     }
 
     /// Goes on by a length, to the target at most. Returns whether the state is finite.
@@ -188,12 +183,10 @@ impl<const W: usize> Runner<W> {
         target: (f64, f64),
         (equations, workspace): (&Equations<W>, &Workspace<W>),
     ) -> bool {
-        let left = (target.0 - self.time.0) + (target.1 - self.time.1);
-        let last = whole >= left.abs();
-        let length = if last { left } else { whole.copysign(left) };
+        let (length, end) = to_target(self.time, target, whole);
         self.add(length, order, workspace);
         self.account(length.abs(), order, (equations, workspace));
-        self.time = if last { target } else { sum(self.time, length) };
+        self.time = end.unwrap_or_else(|| sum(self.time, length));
         let state: f64 = self.attitude.iter().chain(&self.rates).sum();
         state.is_finite()
     }
@@ -216,32 +209,38 @@ impl<const W: usize> Runner<W> {
     /// Adds the errors that the step may have made.
     #[inline(always)]
     fn account(&mut self, length: f64, order: usize, (equations, workspace): (&Equations<W>, &Workspace<W>)) {
-        let last = length.powi(order as i32);
-        let omitted = OMITTED.max(length / (workspace.radius - length));
-        self.systematic[0] += 2.0 * omitted * largest(&workspace.attitude[order]) * last;
-        self.systematic[1] += omitted * largest(&workspace.rates[order]) * last;
         let sizes = workspace.sizes(length);
         let by_rates = ROUNDING[0] * largest(&sizes) + ROUNDING[1] * largest(&workspace.gyration);
-        let rate = (by_rates * largest(&equations.factors) + ROUNDING[0] * largest(&workspace.further)) * length;
-        let angle = ROUNDING[1] * largest(&self.rates) * length;
-        self.rounded[0] += angle * angle;
-        self.rounded[1] += rate * rate;
-        self.last = [angle, rate];
+        let rate = by_rates * largest(&equations.factors) + ROUNDING[0] * largest(&workspace.further);
+        let sizes = StepSizes {
+            omitted: [largest(&workspace.attitude[order]), largest(&workspace.rates[order])],
+            rounding: [ROUNDING[1] * largest(&self.rates), rate],
+            radius: workspace.radius,
+        };
+        self.errors.add(length, order, sizes);
     }
 
     /// Adds errors of so many times the size of the rounding errors of the last step, with signs that look like random ones.
     #[inline(always)]
-    pub(super) fn disturb(&mut self, [of_angle, of_rate]: [f64; 2], random: &mut u64) {
-        // Marsaglia's generator of 64 bits.
-        *random ^= *random << 13;
-        *random ^= *random >> 7;
-        *random ^= *random << 17;
-        let (angle, rate) = (of_angle * self.last[0], of_rate * self.last[1]);
+    pub(super) fn disturb(&mut self, noise: [f64; 2], random: &mut u64) {
+        let noise = [noise[0] * self.errors.last[0], noise[1] * self.errors.last[1]];
+        let signs = RandomSigns::next(random);
         for lane in 0..W {
-            let sign = |bit: u32| if (*random >> bit) & 1 == 0 { 1.0 } else { -1.0 };
-            self.attitude[lane] += 0.5 * angle * sign(8 + lane as u32);
-            // The fourth rate is 0.
-            self.rates[lane] += if lane % 4 < 3 { rate * sign(40 + lane as u32) } else { 0.0 };
+            let [angle, rate] = signs.times(noise, lane);
+            self.attitude[lane] += angle;
+            self.rates[lane] += rate;
+        }
+    }
+}
+
+impl Runner<{ 4 * PATTERNS }> {
+    /// Moves the mean of the states to one state, and multiplies their distances from the mean by a factor.
+    pub(super) fn move_to(&mut self, to: &Start<4>, factor: f64) {
+        let states: [[Row; 2]; PATTERNS] =
+            std::array::from_fn(|state| [four(&self.attitude, 4 * state), four(&self.rates, 4 * state)]);
+        for (state, [attitude, rates]) in moved(&states, [&to.attitude, &to.rates], factor).iter().enumerate() {
+            self.attitude[4 * state..4 * state + 4].copy_from_slice(attitude);
+            self.rates[4 * state..4 * state + 4].copy_from_slice(rates);
         }
     }
 }
@@ -253,9 +252,16 @@ impl Runner<4> {
     }
 }
 
+/// The length of a step that goes to a target at most, and its end if that is the target.
+#[inline(always)]
+pub(super) fn to_target(now: (f64, f64), target: (f64, f64), whole: f64) -> (f64, Option<(f64, f64)>) {
+    let left = (target.0 - now.0) + (target.1 - now.1);
+    if whole >= left.abs() { (left, Some(target)) } else { (whole.copysign(left), None) }
+}
+
 /// A time in double-double plus a length.
 #[inline(always)]
-fn sum((high, low): (f64, f64), length: f64) -> (f64, f64) {
+pub(super) fn sum((high, low): (f64, f64), length: f64) -> (f64, f64) {
     let (sum, rest) = two_sum(high, length);
     two_sum(sum, rest + low)
 }
@@ -278,7 +284,8 @@ pub(super) struct KeptSteps<'a> {
 }
 
 impl Task for KeptSteps<'_> {
-    type Output = Result<(Side, Runner<4>), Error>;
+    /// The steps, and the errors that they leave.
+    type Output = Result<(Side, StepErrors), Error>;
 
     #[inline(always)]
     fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
@@ -307,7 +314,7 @@ impl Task for KeptSteps<'_> {
             }
         }
         steps.push(runner.step());
-        Ok((Side { steps, coefficients }, runner))
+        Ok((Side { steps, coefficients }, runner.errors))
     }
 }
 

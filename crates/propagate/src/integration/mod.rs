@@ -5,6 +5,8 @@
 //! displaced states measure the error ([`bound`]). At equal error the integration with its error bound takes 0.66 to 0.95 of the time of heyoka, which has no
 //! bound, without its compilation; at equal tolerance 1.2 to 1.8 times as long (`make rivals-integration`, benches/README.md).
 //!
+//! Members of an ensemble are integrated together, each in a lane of a vector ([`several`], [`lane_tasks`], [`lanes`], [`lane_series`]).
+//!
 //! Imports errors, numerics, simd, orbit, torque, input and motion.
 
 mod bound;
@@ -15,11 +17,17 @@ mod expansion;
 pub(crate) mod integrated;
 pub(crate) mod integrator;
 mod interpolation;
+mod lane_series;
+mod lane_tasks;
+mod lanes;
 mod linear;
 mod path_series;
 mod products;
+pub(crate) mod prospect;
 mod rates;
 mod series;
+pub(crate) mod several;
+mod step_errors;
 mod torques;
 pub(crate) mod variation;
 

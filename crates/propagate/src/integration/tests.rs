@@ -3,11 +3,14 @@ use std::sync::atomic::AtomicBool;
 use pulp::Arch;
 
 use super::dense::Cursor;
-use super::expansion::{Equations, Start};
-use super::integrated::{Integrated, Problem, prospect};
-use super::integrator::{Precision, Runner, Step};
+use super::expansion::Equations;
+use super::integrated::{Integrated, Problem};
+use super::integrator::{Precision, Step};
 use super::products::NEXT;
+use super::prospect::prospect;
 use super::series::{Row, norm};
+use super::several::several;
+use super::step_errors::moved;
 use crate::error::STEP_BYTES;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch_few};
 use crate::{Body, Method, Orbit, Scene, State};
@@ -165,18 +168,45 @@ fn lanes_have_the_same_order_in_every_instruction_set() {
 
 #[test]
 fn states_that_are_moved_to_a_motion_keep_the_direction_of_their_difference_and_their_norm() {
-    let middle =
-        Start { time: (0.0, 0.0), backward: false, attitude: [0.0, 0.0, 0.6, 0.8], rates: [0.1, 0.2, 1.0, 0.0] };
-    let attitude =
-        [0.02, 0.0, 0.6, (1.0 - 0.0004 - 0.36_f64).sqrt(), 0.0, -0.02, 0.6, (1.0 - 0.0004 - 0.36_f64).sqrt()];
-    let mut runner = Runner::new(attitude, [0.1, 0.3, 1.0, 0.0, 0.1, 0.2, 0.9, 0.0], false);
-    runner.move_to(&middle, 0.1);
+    let (middle, w): ([Row; 2], f64) = ([[0.0, 0.0, 0.6, 0.8], [0.1, 0.2, 1.0, 0.0]], (1.0 - 0.0004 - 0.36_f64).sqrt());
+    let states = [[[0.02, 0.0, 0.6, w], [0.1, 0.3, 1.0, 0.0]], [[0.0, -0.02, 0.6, w], [0.1, 0.2, 0.9, 0.0]]];
+    let [[one, _], [other, _]] = moved(&states, [&middle[0], &middle[1]], 0.1);
     // Differences of 0.02 are 0.002 now, and the mean is the middle.
-    let [one, other]: [Row; 2] = runner.attitudes();
     for (found, exact) in one.iter().chain(&other).zip([0.001, 0.001, 0.6, 0.8, -0.001, -0.001, 0.6, 0.8]) {
         assert!((found - exact).abs() < 3e-6, "{one:?} {other:?}");
     }
     for attitude in [one, other] {
         assert!((attitude.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn motions_in_lanes_are_those_that_are_integrated_alone() {
+    let turned = |scene: Scene, e: f64| {
+        let orbit = Orbit::new(0.1, e).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
+        scene.orbit(orbit).tolerance(1e-10)
+    };
+    let scenes: Vec<_> = random_scenes(11)
+        .zip([0.0, 0.1, 0.3, 0.6, 0.8].into_iter().cycle())
+        .map(|(scene, e)| turned(scene, e))
+        .collect();
+    let going = AtomicBool::new(false);
+    let together = several(&scenes.iter().map(|scene| (scene, "")).collect::<Vec<_>>(), &going);
+    for (scene, together) in scenes.iter().zip(together) {
+        let (alone, together) = (Integrated::new(scene, "", &going).expect("a motion"), together.expect("a motion"));
+        let mut cursors = [Cursor::new(&alone), Cursor::new(&together)];
+        let bound = alone.error.min(together.error);
+        for k in 0..=20 {
+            let time = f64::from(k) / 20.0 * alone.reach[1];
+            let [one, other] = [0, 1].map(|i| cursors[i].at((time, 0.0)).0);
+            let apart = 2.0 * norm(&[0, 1, 2, 3].map(|lane| one[lane] - other[lane]));
+            assert!(apart <= bound, "{apart:e} {bound:e}");
+        }
+        assert!(
+            together.error < 2.0 * alone.error && together.error > 0.1 * alone.error,
+            "{:e} {:e}",
+            alone.error,
+            together.error
+        );
     }
 }

@@ -138,21 +138,24 @@ pub(crate) fn eccentric_anomaly(m: f64, e: f64) -> f64 {
 /// E by Markley's starter and two steps.
 #[inline(always)]
 fn from_starter<S: InstructionSet>(m: Lanes<S>, e: f64) -> Lanes<S> {
+    let shape = [m.all(e), m.all(1.0 - e)];
+    corrected(corrected(starter(m, e), m, shape), m, shape)
+}
+
+/// An approximation to E after one step towards the root of Kepler's equation, from e and 1 − e.
+#[inline(always)]
+pub(crate) fn corrected<S: InstructionSet>(anomaly: Lanes<S>, m: Lanes<S>, [e, rest]: [Lanes<S>; 2]) -> Lanes<S> {
     let all = |value: f64| m.all(value);
-    let mut anomaly = starter(m, e);
-    for _ in 0..2 {
-        let (half_sine, half_cosine) = sin_cos_of_turns(anomaly * all(0.5 / TAU));
-        let sine = (half_sine + half_sine) * half_cosine;
-        let versed = (half_sine + half_sine) * half_sine;
-        let slope = versed.mul_add(all(e), all(1.0 - e));
-        let residual = anomaly.mul_add(all(1.0 - e), excess(anomaly, sine).mul_add(all(e), -m));
-        // Third order (Halley), then fourth, from the second and third derivatives e sin E and e cos E.
-        let (second, third) = (sine * all(0.5 * e), versed.negate_mul_add(all(e / 6.0), all(e / 6.0)));
-        let newton = residual / slope;
-        let halley = residual / newton.negate_mul_add(second, slope);
-        anomaly = anomaly - residual / (halley * halley).mul_add(third, halley.negate_mul_add(second, slope));
-    }
-    anomaly
+    let (half_sine, half_cosine) = sin_cos_of_turns(anomaly * all(0.5 / TAU));
+    let sine = (half_sine + half_sine) * half_cosine;
+    let versed = (half_sine + half_sine) * half_sine;
+    let slope = versed.mul_add(e, rest);
+    let residual = anomaly.mul_add(rest, excess(anomaly, sine).mul_add(e, -m));
+    // Third order (Halley), then fourth, from the second and third derivatives e sin E and e cos E.
+    let (second, third) = (sine * (all(0.5) * e), versed.negate_mul_add(e * all(1.0 / 6.0), e * all(1.0 / 6.0)));
+    let newton = residual / slope;
+    let halley = residual / newton.negate_mul_add(second, slope);
+    anomaly - residual / (halley * halley).mul_add(third, halley.negate_mul_add(second, slope))
 }
 
 /// E − sin E without cancellation.

@@ -11,7 +11,7 @@ use crate::gravity_gradient::request::Request;
 use crate::gravity_gradient::request::osculating;
 use crate::input::options::{Level, Method};
 use crate::input::scene::Scene;
-use crate::integration::integrated::verification_cost;
+use crate::integration::prospect::verification_cost;
 use crate::motion::plan::{Plan, in_ascii};
 use crate::motion::solved::{Frequencies, Motion};
 use crate::motion::trajectory::Trajectory;

@@ -2,13 +2,18 @@
 
 use std::sync::atomic::AtomicBool;
 
+use andoyer_series::threads::shared;
+use rayon::prelude::*;
+
 use super::free::{self, Preparation};
 use super::{averaged, integrated, libration};
 use crate::error::{Error, Kind};
 use crate::input::options::{Averaging, Level, Method};
 use crate::input::scene::Scene;
-use crate::integration::integrated::{is_brief, prospect};
+use crate::integration::integrated::Integrated;
 use crate::integration::integrator::MOST_STEPS;
+use crate::integration::prospect::{is_brief, prospect};
+use crate::integration::several::several;
 use crate::motion::plan::{ROUNDED_TOLERANCE, bound_in_words, in_ascii};
 use crate::motion::solved::Motion;
 use crate::orbit::disturbing_body::DisturbingBody;
@@ -39,36 +44,133 @@ impl Scene {
     }
 }
 
+/// Why a scene has no motion yet.
+enum Unsolved {
+    Failed(Error),
+    Integration(Box<Integration>),
+}
+
+impl From<Error> for Unsolved {
+    fn from(error: Error) -> Self {
+        Self::Failed(error)
+    }
+}
+
+/// A scene that is integrated.
+struct Integration {
+    scene: Scene,
+    /// Why it is.
+    reason: String,
+    /// The motion by theory, which does not meet the tolerance.
+    by_theory: Option<Motion>,
+    /// Why it is no libration.
+    locked: Option<String>,
+}
+
 /// The motion of a scene about principal axes, by the method that it asks for or that serves it.
 ///
 /// # Errors
 /// As [`Scene::solve_until`].
 pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
-    match (scene.asked_method(), beyond_theory(&scene)) {
-        (Method::Libration, Some(reason)) if !scene.asked_torques().is_empty() => Err(Error::NoLibration { reason }),
-        (Method::Libration, _) => libration::motion(scene, tables, stop),
-        (Method::Integrated, _) => integrated::motion(scene, tables, String::new(), stop),
-        (Method::Auto, Some(reason)) => integrated::motion(scene, tables, format!("theory: {reason}"), stop),
-        (method, Some(reason)) => Err(Error::OnlyIntegrated { method: method.to_string(), reason }),
-        (_, None) if may_be_integrated(&scene) => cheapest(scene, tables, stop),
-        (method, None) => {
-            let solved = by_theory(scene.clone(), tables);
-            let failed = solved.as_ref().map_or(true, |motion| !motion.plan.meets_tolerance());
-            if method == Method::Auto
-                && failed
-                && let Ok(motion) = libration::serving(&scene, tables, stop)?
-            {
-                return Ok(motion);
-            }
-            let bodies = without_span(&scene);
-            solved.map_err(|error| match bodies {
-                Some(bodies) if error.kind() == Kind::Theory => {
-                    Error::NoSpan { reason: format!("theory for {bodies}: {}", in_ascii(&error.to_string())) }
-                }
-                _ => error,
-            })
-        }
+    let by_theory_alone = !matches!(scene.asked_method(), Method::Integrated | Method::Libration);
+    if by_theory_alone && scene.asked_disturbing().is_empty() && scene.asked_torques().is_empty() {
+        return by_theory(scene, tables);
     }
+    choice(scene, tables, stop).or_else(|unsolved| match unsolved {
+        Unsolved::Failed(error) => Err(error),
+        Unsolved::Integration(chosen) => {
+            let found = Integrated::new(&chosen.scene, &chosen.reason, stop);
+            chosen.finished(found, tables)
+        }
+    })
+}
+
+/// The motions of several scenes about principal axes. Those that are integrated are integrated together.
+pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> Vec<Result<Motion, Error>> {
+    let tables = SeriesTables::default();
+    let choose = |scene: Result<Scene, Error>| choice(scene?, &tables, stop);
+    let choices: Vec<_> = shared(scenes.len(), |threads| match threads {
+        1 => scenes.into_iter().map(choose).collect(),
+        _ => scenes.into_par_iter().map(choose).collect(),
+    });
+    let chosen = choices.iter().filter_map(|choice| match choice {
+        Err(Unsolved::Integration(chosen)) => Some((&chosen.scene, &chosen.reason[..])),
+        _ => None,
+    });
+    let mut found = several(&chosen.collect::<Vec<_>>(), stop).into_iter();
+    let mut finished = |unsolved| match unsolved {
+        Unsolved::Failed(error) => Err(error),
+        Unsolved::Integration(chosen) => chosen.finished(found.next().unwrap_or(Err(Error::Stopped)), &tables),
+    };
+    choices.into_iter().map(|choice| choice.or_else(&mut finished)).collect()
+}
+
+/// The motion, unless the scene is integrated.
+fn choice(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Unsolved> {
+    let integration = |scene: Scene, reason: String| {
+        Err(Unsolved::Integration(Box::new(Integration { scene, reason, by_theory: None, locked: None })))
+    };
+    match (scene.asked_method(), beyond_theory(&scene)) {
+        (Method::Libration, Some(reason)) if !scene.asked_torques().is_empty() => Err(Error::NoLibration { reason })?,
+        (Method::Libration, _) => Ok(libration::motion(scene, tables, stop)?),
+        (Method::Integrated, _) => integration(scene, String::new()),
+        (Method::Auto, Some(reason)) => integration(scene, format!("theory: {reason}")),
+        (method, Some(reason)) => Err(Error::OnlyIntegrated { method: method.to_string(), reason })?,
+        (_, None) if may_be_integrated(&scene) => cheapest(scene, tables, stop),
+        (method, None) => Ok(without_integration(scene, method, tables, stop)?),
+    }
+}
+
+/// The theory, or a libration that serves a scene better.
+fn without_integration(
+    scene: Scene,
+    method: Method,
+    tables: &SeriesTables,
+    stop: &AtomicBool,
+) -> Result<Motion, Error> {
+    let solved = by_theory(scene.clone(), tables);
+    let failed = solved.as_ref().map_or(true, |motion| !motion.plan.meets_tolerance());
+    if method == Method::Auto
+        && failed
+        && let Ok(motion) = libration::serving(&scene, tables, stop)?
+    {
+        return Ok(motion);
+    }
+    let bodies = without_span(&scene);
+    solved.map_err(|error| match bodies {
+        Some(bodies) if error.kind() == Kind::Theory => {
+            Error::NoSpan { reason: format!("theory for {bodies}: {}", in_ascii(&error.to_string())) }
+        }
+        _ => error,
+    })
+}
+
+impl Integration {
+    /// The motion by the integration, or by theory where that has the smaller bound.
+    fn finished(self, found: Result<Integrated, Error>, tables: &SeriesTables) -> Result<Motion, Error> {
+        let Self { scene, reason, by_theory, locked } = self;
+        let integrated = integrated::motion(scene, tables, reason, found);
+        let mut motion = match (by_theory, integrated) {
+            (None, integrated) => integrated?,
+            (Some(by_theory), Ok(motion)) if motion.plan.error_bound < by_theory.plan.error_bound => motion,
+            (_, Err(Error::Stopped)) => return Err(Error::Stopped),
+            (Some(by_theory), integrated) => without(
+                by_theory,
+                match integrated {
+                    Ok(motion) => format!("its error bound is {}", bound_in_words(motion.plan.error_bound)),
+                    Err(error) => in_ascii(&error.to_string()),
+                },
+            ),
+        };
+        motion.plan.skipped.extend(locked);
+        Ok(motion)
+    }
+}
+
+/// A motion by theory, with the reason why it is not integrated.
+fn without(mut by_theory: Motion, unused: String) -> Motion {
+    by_theory.plan.skipped.push(format!("integration: {unused}"));
+    by_theory
 }
 
 /// The motion by theory: averaged if a torque acts, else free.
@@ -126,13 +228,12 @@ fn may_be_integrated(scene: &Scene) -> bool {
 
 /// The theory where it meets the tolerance, else the integration where that does, else the theory: it costs less, and the plan says how near the integration
 /// would come. For several bodies and for orbits that precess the smaller error bound decides instead.
-fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
-    let by_theory = by_theory(scene.clone(), tables);
-    match &by_theory {
-        Ok(motion) if motion.plan.meets_tolerance() => return by_theory,
-        Err(error) if error.kind() != Kind::Theory => return by_theory,
-        _ => {}
-    }
+fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Unsolved> {
+    let by_theory = match by_theory(scene.clone(), tables) {
+        Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion),
+        Err(error) if error.kind() != Kind::Theory => return Err(error.into()),
+        by_theory => by_theory,
+    };
     let prospect = prospect(&scene);
     let mut locked = None;
     if prospect.is_none_or(|(_, steps)| steps > STEPS_OF_A_FORM) {
@@ -141,45 +242,36 @@ fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Mo
             Err(reason) => locked = reason.map(|reason| format!("libration: {reason}")),
         }
     }
-    let mut motion = not_locked(scene, by_theory, prospect, (tables, stop))?;
-    motion.plan.skipped.extend(locked);
-    Ok(motion)
+    let (by_theory, reason) = match by_theory {
+        Ok(motion) => match not_integrated(&scene, &motion, prospect) {
+            Some(unused) => {
+                let mut motion = without(motion, unused);
+                motion.plan.skipped.extend(locked);
+                return Ok(motion);
+            }
+            None => {
+                let reason = format!("theory: its error bound is {}", bound_in_words(motion.plan.error_bound));
+                (Some(motion), reason)
+            }
+        },
+        Err(error) => (None, format!("theory: {}", in_ascii(&error.to_string()))),
+    };
+    Err(Unsolved::Integration(Box::new(Integration { scene, reason, by_theory, locked })))
 }
 
-/// The integration or the theory, which does not meet the tolerance.
-fn not_locked(
-    scene: Scene,
-    by_theory: Result<Motion, Error>,
-    prospect: Option<(f64, f64)>,
-    (tables, stop): (&SeriesTables, &AtomicBool),
-) -> Result<Motion, Error> {
-    let mut by_theory = match by_theory {
-        Ok(motion) => motion,
-        Err(error) => {
-            return integrated::motion(scene, tables, format!("theory: {}", in_ascii(&error.to_string())), stop);
-        }
-    };
+/// Why a scene is not integrated although the theory does not meet the tolerance, or `None`.
+fn not_integrated(scene: &Scene, by_theory: &Motion, prospect: Option<(f64, f64)>) -> Option<String> {
     // For several bodies and for orbits that precess the integration also counts where it only comes nearer to the tolerance.
     let fixed = scene.asked_orbit().is_some_and(Orbit::is_fixed);
     let tolerance = scene.asked_tolerance().max(ROUNDED_TOLERANCE);
     let enough = if fixed { tolerance } else { tolerance.max(by_theory.plan.error_bound) };
-    let unused = match prospect {
+    match prospect {
         Some((_, steps)) if steps > MOST_STEPS as f64 => {
-            format!("it would take about {steps:.1e} steps, and at most {MOST_STEPS} are kept")
+            Some(format!("it would take about {steps:.1e} steps, and at most {MOST_STEPS} are kept"))
         }
         Some((bound, _)) if bound > enough => {
-            format!("its error bound would be about {} (method \"integrated\" has it)", bound_in_words(bound))
+            Some(format!("its error bound would be about {} (method \"integrated\" has it)", bound_in_words(bound)))
         }
-        _ => {
-            let reason = format!("theory: its error bound is {}", bound_in_words(by_theory.plan.error_bound));
-            match integrated::motion(scene, tables, reason, stop) {
-                Ok(motion) if motion.plan.error_bound < by_theory.plan.error_bound => return Ok(motion),
-                Ok(motion) => format!("its error bound is {}", bound_in_words(motion.plan.error_bound)),
-                Err(Error::Stopped) => return Err(Error::Stopped),
-                Err(error) => in_ascii(&error.to_string()),
-            }
-        }
-    };
-    by_theory.plan.skipped.push(format!("integration: {unused}"));
-    Ok(by_theory)
+        _ => None,
+    }
 }

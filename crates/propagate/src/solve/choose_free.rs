@@ -44,3 +44,9 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, _: &AtomicBool) -> Res
     let polhode = Polhode::new(scene.body(), scene.state());
     free::motion(scene, polhode.as_ref(), Preparation::new(tables))
 }
+
+/// The motions of several scenes about principal axes.
+pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> Vec<Result<Motion, Error>> {
+    let tables = SeriesTables::default();
+    scenes.into_iter().map(|scene| scene.and_then(|scene| motion(scene, &tables, stop))).collect()
+}

@@ -1,14 +1,14 @@
 //! The motion by numerical integration.
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use super::free::{self, Preparation};
 use crate::error::Error;
 use crate::input::options::Method;
 use crate::input::scene::Scene;
 use crate::input::torque::rotors;
-use crate::integration::integrated::{Integrated, verification_cost};
+use crate::integration::integrated::Integrated;
+use crate::integration::prospect::verification_cost;
 use crate::motion::plan::Plan;
 use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
@@ -19,11 +19,16 @@ use crate::torque_free::series::tables::SeriesTables;
 ///
 /// # Errors
 /// Those of the integration.
-pub(super) fn motion(scene: Scene, tables: &SeriesTables, reason: String, stop: &AtomicBool) -> Result<Motion, Error> {
+pub(super) fn motion(
+    scene: Scene,
+    tables: &SeriesTables,
+    reason: String,
+    found: Result<Integrated, Error>,
+) -> Result<Motion, Error> {
     let unforced = Scene::new(scene.body().clone(), *scene.state());
     let polhode = Polhode::new(unforced.body(), unforced.state());
     let free = free::motion(unforced, polhode.as_ref(), Preparation::new(tables))?;
-    let motion = Integrated::new(&scene, &reason, stop).map_err(|error| match error {
+    let motion = found.map_err(|error| match error {
         Error::TooManySteps { steps, bound, .. } => Error::TooManySteps { steps, bound, reason: reason.clone() },
         error => error,
     })?;

@@ -632,6 +632,7 @@ class Ensemble:
         epochs: ArrayLike | Any | None = None,
         orbits: Orbit | Iterable[Orbit | None] | None = None,
         tolerance: float = 1e-12,
+        method: Literal["auto", "series", "closed", "integrated", "libration"] = "auto",
         span: ArrayLike | Any | None = None,
         threads: int | None = None,
         errors: Literal["raise", "nan"] = "raise",
@@ -679,6 +680,9 @@ class Ensemble:
     @property
     def tolerance(self) -> float:
         """The requested attitude error, in rad."""
+    @property
+    def method(self) -> Literal["auto", "series", "closed", "integrated", "libration"]:
+        """The method asked for: "auto", "series", "closed", "integrated" or "libration"."""
     @property
     def orbits(self) -> Orbit | list[Orbit | None] | None:
         """The orbits: an Orbit for all members, a list of one or None for each, or None."""

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use andoyer_propagate::options::Method;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice, PyTuple};
@@ -30,7 +31,7 @@ impl Ensemble {
             let tensors = chosen.iter().map(|&member| self.0.asked_tensors()[member]).collect();
             andoyer_propagate::Ensemble::from_inertia_or(tensors, attitudes, rates, on_error, &going)
         };
-        let part = part.map_err(error::propagation)?.tolerance(self.0.asked_tolerance());
+        let part = part.map_err(error::propagation)?.tolerance(self.0.asked_tolerance()).method(self.0.asked_method());
         let part = match self.0.asked_epochs() {
             [] => Ok(part),
             [of_all] => part.epochs(vec![*of_all]),
@@ -64,6 +65,7 @@ impl Ensemble {
         keywords.set_item("errors", self.0.asked_on_error().to_string())?;
         keywords.set_item("orbits", self.orbits(py)?)?;
         keywords.set_item("tolerance", self.tolerance())?;
+        keywords.set_item("method", self.0.asked_method().to_string())?;
         keywords.set_item("span", self.span())?;
         keywords.set_item("threads", self.threads())?;
         (arrays, keywords).into_pyobject(py)
@@ -77,8 +79,9 @@ impl Ensemble {
         let orbits = if disturbed > 0 { format!(", {disturbed} under an orbit") } else { String::new() };
         let span =
             self.0.asked_span().map_or_else(String::new, |(start, stop)| format!(", span=({start:?}, {stop:?})"));
-        let tolerance = self.0.asked_tolerance();
-        format!("<Ensemble of {} {bodies}{orbits}, tolerance={tolerance:?}{span}{threads}>", self.0.len())
+        let (tolerance, method) = (self.0.asked_tolerance(), self.0.asked_method());
+        let method = if method == Method::Auto { String::new() } else { format!(", method=\"{method}\"") };
+        format!("<Ensemble of {} {bodies}{orbits}, tolerance={tolerance:?}{method}{span}{threads}>", self.0.len())
     }
 
     /// A motion for an index, an ensemble for a slice.

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::ensemble::{MAX_THREADS, OnError};
 use andoyer_propagate::error::Kind;
-use andoyer_propagate::options::Convention;
+use andoyer_propagate::options::{Convention, Method};
 use andoyer_propagate::periods::Periods;
 use andoyer_series::threads::alone;
 use numpy::{IntoPyArray, PyArray1, PyArrayDyn, PyArrayMethods};
@@ -45,7 +45,7 @@ immutable!(Ensemble);
 #[pymethods]
 impl Ensemble {
     #[new]
-    #[pyo3(signature = (moments, attitudes, angular_velocities, *, epochs=None, orbits=None, tolerance=1e-12, span=None, threads=None, errors="raise", scalar_first=false))]
+    #[pyo3(signature = (moments, attitudes, angular_velocities, *, epochs=None, orbits=None, tolerance=1e-12, method="auto", span=None, threads=None, errors="raise", scalar_first=false))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn new(
         py: Python<'_>,
@@ -55,6 +55,7 @@ impl Ensemble {
         epochs: Option<&Bound<'_, PyAny>>,
         orbits: Option<&Bound<'_, PyAny>>,
         #[pyo3(from_py_with = tolerance)] tolerance: f64,
+        method: &str,
         span: Option<&Bound<'_, PyAny>>,
         threads: Option<&Bound<'_, PyAny>>,
         errors: &str,
@@ -68,6 +69,7 @@ impl Ensemble {
         let threads = threads.map(|value| whole_number("threads", value, 1, MAX_THREADS, Kind::Input)).transpose()?;
         let orbits = orbits.map(orbits_of).transpose()?;
         let on_error: OnError = errors.parse().map_err(error::propagation)?;
+        let method: Method = method.parse().map_err(error::propagation)?;
         let (epochs, calendar) = epochs.map(epochs_of).transpose()?.unwrap_or_default();
         let first = epochs.first().copied().unwrap_or(0.0);
         let span = span.map(|value| span_of(value, first, calendar.first().copied())).transpose()?;
@@ -78,7 +80,7 @@ impl Ensemble {
             let ensemble = if threads == Some(1) { alone(checked) } else { checked() }?;
             let ensemble = if epochs.is_empty() { ensemble } else { ensemble.epochs(epochs)? };
             let span = span.map(|[start, stop]: [f64; 2]| (start, stop));
-            let ensemble = asked(ensemble.tolerance(tolerance), orbits, span, threads)?;
+            let ensemble = asked(ensemble.tolerance(tolerance).method(method), orbits, span, threads)?;
             ensemble.validate().map(|()| ensemble)
         };
         interruptible(py, members >= LONG, error::propagation, new).map(|ensemble| Self(ensemble, calendar))
@@ -365,6 +367,12 @@ impl Ensemble {
     #[getter]
     fn tolerance(&self) -> f64 {
         self.0.asked_tolerance()
+    }
+
+    /// The method asked for: "auto", "series", "closed", "integrated" or "libration".
+    #[getter]
+    fn method(&self) -> String {
+        self.0.asked_method().to_string()
     }
 
     /// The orbits: an Orbit for all members, a list of one or None for each, or None.
