@@ -37,7 +37,7 @@ pub(super) struct Conic {
     pub(super) eccentricity: f64,
     pub(super) root: f64,
     /// The mean anomaly of the singularity above the pericentre, over the imaginary unit.
-    pub(super) singularity: f64,
+    singularity: f64,
     tilt: (f64, f64),
     /// The directions to the pericentre and a quarter turn further, inertial, at the epoch.
     axes: [Row; 2],
@@ -112,6 +112,11 @@ impl Conic {
             let tilted = place.map(|row| tilted(row, self.tilt));
             *out = self.beside_node(simd, &tilted, (elapsed, order));
         }
+        self.radius(mean)
+    }
+
+    /// The radius of convergence at a mean anomaly.
+    pub(super) fn radius(&self, mean: f64) -> f64 {
         (mean * mean + self.singularity * self.singularity).sqrt() / self.mean_motion
     }
 

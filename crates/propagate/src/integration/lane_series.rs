@@ -73,7 +73,7 @@ impl<S: InstructionSet> LaneMotions<'_, S> {
             anomaly[lane] = place.anomaly - TAU * ((place.anomaly - mean[lane]) / TAU).round();
             (e[lane], rest[lane], root[lane]) = (conic.eccentricity, 1.0 - conic.eccentricity, conic.root);
             (motion[lane], strength[lane]) = (conic.mean_motion, conic.strength);
-            place.radius = (mean[lane] * mean[lane] + conic.singularity * conic.singularity).sqrt() / conic.mean_motion;
+            place.radius = conic.radius(mean[lane]);
         }
         let of = |values: &[f64]| Lanes::load(simd, values).alike();
         let (shape, mean) = ([of(&e), of(&rest)], of(&mean));

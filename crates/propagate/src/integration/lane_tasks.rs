@@ -11,7 +11,7 @@ use super::integrated::{MeasuredMotion, Problem};
 use super::integrator::{AT_ONCE, Precision, Side, Step, to_target};
 use super::lanes::{LaneMotions, LaneSizes, LaneStart, MOST, within};
 use super::path_series::PathSeries;
-use super::series::Row;
+use super::series::{Row, norm};
 use super::step_errors::{PATTERNS, RandomSigns, StepErrors, moved};
 use crate::error::Error;
 use crate::simd::halt::going;
@@ -67,10 +67,12 @@ impl<'a> LaneProblem<'a> {
     /// The motion from its epoch.
     fn start(&self) -> LaneStart<'a> {
         let Problem { equations, attitude, rates, .. } = self.problem;
+        let attitude = within(&self.axes, *attitude);
+        let length = norm(&attitude);
         LaneStart {
             conic: self.conic,
             axes: self.axes,
-            attitude: within(&self.axes, *attitude),
+            attitude: attitude.map(|part| part / length),
             rates: *rates,
             factors: equations.factors,
             strength: 1.0,

@@ -23,7 +23,7 @@ pub(super) type PerLane = [f64; MOST];
 /// Numbers for each lane.
 pub(super) type LaneVectors<S, const N: usize> = [<S as pulp::Simd>::f64s; N];
 
-/// The motion in a lane.
+/// A motion that enters a lane.
 #[derive(Clone, Copy)]
 pub(super) struct LaneStart<'a> {
     pub(super) conic: &'a Conic,
@@ -324,7 +324,7 @@ fn norm<S: InstructionSet>(simd: S, vectors: &[S::f64s]) -> S::f64s {
 
 /// An inertial attitude relative to the axes of an orbit.
 pub(super) fn within(axes: &UnitQuaternion<f64>, [x, y, z, w]: Row) -> Row {
-    (axes.quaternion().conjugate() * Quaternion::new(w, x, y, z)).normalize().coords.into()
+    (axes.quaternion().conjugate() * Quaternion::new(w, x, y, z)).coords.into()
 }
 
 #[inline(always)]

@@ -7,8 +7,9 @@ const OMITTED: f64 = 0.2;
 /// Relative rounding errors of a torque and of ω × Iω.
 pub(super) const ROUNDING: [f64; 2] = [4.0 * 1.2e-16, 2.0 * 1.2e-16];
 
-/// Rounding error of an attitude that is turned to the axes of an orbit and back \[rad\]: in 1,000 drawn ones the largest was 6e-16.
+/// Rounding error of an attitude that is turned to the axes of an orbit and back, 4.6e-16 at most in 1,000 drawn ones, and of the axes \[rad\].
 const TURNED: f64 = 6e-16;
+
 /// How many displaced states there are.
 pub(super) const PATTERNS: usize = 4;
 
