@@ -104,7 +104,7 @@ crate::error_table! {
         } => Theory, facts("hamiltonian", eigenvalue, "no Jordan block");
 
         /// A quadratic part with rational coefficients whose eigenvalues are not rational.
-        #[error("the eigenvalues {eigenvalue} of the quadratic part in {pairs} are not rational (with a denominator below 1e7): use floats, or, if all frequencies are rational multiples of one root, write a parameter w for the root and scale w away (PhaseSpace::scaled; in Python the argument frequency)")]
+        #[error("the eigenvalues {eigenvalue} of the quadratic part in {pairs} are not rational: use floats, or, if all frequencies are rational multiples of one root, write a parameter w for the root and scale w away (PhaseSpace::scaled; in Python the argument frequency)")]
         SpectrumIrrational { pairs: String = "The pairs of the coupled block.", eigenvalue: String = "The eigenvalues." }
         => Representation, facts("hamiltonian", eigenvalue, "rational eigenvalues, or floats");
 

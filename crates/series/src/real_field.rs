@@ -8,7 +8,7 @@ use crate::monomial::MAX_EXPONENT;
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;
-use num_traits::{FromPrimitive, Signed, ToPrimitive};
+use num_traits::{Signed, ToPrimitive};
 
 /// A field of real numbers with its complex extension: `BigRational` (exact) or `f64`.
 ///
@@ -44,8 +44,16 @@ pub trait RealField: Coefficient + Send + Sync {
     /// Relative rounding error; 0 for exact numbers.
     const EPSILON: f64;
 
-    /// The numbers that a finite approximation may represent: the float itself, or the convergents of its continued fraction.
-    fn candidates(approximation: f64) -> Vec<Self>;
+    /// The number as a fraction; `None` if it is not finite.
+    fn to_rational(&self) -> Option<BigRational>;
+
+    /// The number of this field that is nearest to a fraction.
+    fn from_rational(value: &BigRational) -> Self;
+
+    /// The number that equals a float; `None` if the float is not finite.
+    fn from_float(value: f64) -> Option<Self> {
+        BigRational::from_float(value).map(|value| Self::from_rational(&value))
+    }
 }
 
 impl RealField for BigRational {
@@ -77,19 +85,12 @@ impl RealField for BigRational {
 
     const EPSILON: f64 = 0.0;
 
-    fn candidates(approximation: f64) -> Vec<Self> {
-        let (mut rest, mut before, mut last) =
-            (approximation, (BigInt::ZERO, BigInt::from(1)), (BigInt::from(1), BigInt::ZERO));
-        let mut convergents = Vec::new();
-        // A fraction with a denominator below 1e7 is a convergent of its float, and occurs among the first twenty.
-        for _ in 0..20 {
-            let Some(quotient) = BigInt::from_f64(rest.floor()) else { break };
-            let next = (&quotient * &last.0 + &before.0, &quotient * &last.1 + &before.1);
-            before = std::mem::replace(&mut last, next);
-            convergents.push(BigRational::new(last.0.clone(), last.1.clone()));
-            rest = (rest - rest.floor()).recip();
-        }
-        convergents
+    fn to_rational(&self) -> Option<BigRational> {
+        Some(self.clone())
+    }
+
+    fn from_rational(value: &BigRational) -> Self {
+        value.clone()
     }
 }
 
@@ -123,7 +124,15 @@ impl RealField for f64 {
 
     const EPSILON: f64 = f64::EPSILON;
 
-    fn candidates(approximation: f64) -> Vec<Self> {
-        vec![approximation]
+    fn to_rational(&self) -> Option<BigRational> {
+        BigRational::from_float(*self)
+    }
+
+    fn from_rational(value: &BigRational) -> Self {
+        value.to_float()
+    }
+
+    fn from_float(value: f64) -> Option<Self> {
+        value.is_finite().then_some(value)
     }
 }

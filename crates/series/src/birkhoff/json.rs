@@ -274,7 +274,7 @@ fn number<R: RealField>(value: &Value) -> Result<R, Error> {
     let malformed = || Error::RationalMalformed { text: value.to_string() };
     if R::EPSILON > 0.0 {
         let float = value.as_f64().filter(|float| float.is_finite()).ok_or_else(malformed)?;
-        return R::candidates(float).pop().ok_or_else(malformed);
+        return R::from_float(float).ok_or_else(malformed);
     }
     let text = value.as_str().ok_or_else(malformed)?;
     let constant = Polynomial::<R>::parse(text, &[]).ok().and_then(|constant| constant.as_constant());

@@ -1,8 +1,9 @@
 //! The eigenvalues of the linear motion J A and their null vectors.
 //!
-//! The real Schur form gives the eigenvalues in floats. Over the rationals each eigenvalue must be one of the fractions near the float, and elimination proves
-//! it. An eigenvalue of multiplicity m has m null vectors of J A − λ. Otherwise it has a Jordan block, which is an error that names the eigenvalue.
+//! Floats have the eigenvalues of the real Schur form, rationals those of [`exact_spectrum`](super::exact_spectrum). An eigenvalue of multiplicity m has m null
+//! vectors of J A − λ. Otherwise it has a Jordan block, which is an error that names the eigenvalue.
 
+use super::exact_spectrum::{self, Eigenvalue, Refusal};
 use super::matrix::{Matrix, null_space};
 use super::mode::modulus;
 use crate::error::Error;
@@ -50,7 +51,36 @@ pub(super) fn spectrum<R: RealField>(
     motion: &Matrix<R>,
     scale: f64,
     names: &Names,
-) -> Result<Vec<(f64, f64, usize)>, Error> {
+) -> Result<Vec<Eigenvalue<R>>, Error> {
+    let not_finite = || Error::NotFinite { what: "quadratic part", term: names.pairs() };
+    let mut found = if R::EPSILON > 0.0 {
+        let floats = floating::<R>(motion, scale, names)?.into_iter();
+        let number = |(re, im, count)| Some((R::from_float(re)?, R::from_float(im)?, count));
+        floats.map(number).collect::<Option<Vec<_>>>().ok_or_else(not_finite)?
+    } else {
+        let fraction = |entry: &R| entry.to_rational().ok_or_else(not_finite);
+        let fractions =
+            motion.iter().map(|row| row.iter().map(fraction).collect()).collect::<Result<Matrix<_>, _>>()?;
+        let exact = exact_spectrum::eigenvalues(&fractions).map_err(|refusal| match refusal {
+            Refusal::Zero => zero::<R>(motion, names),
+            Refusal::Irrational(re, im) => {
+                Error::SpectrumIrrational { pairs: names.pairs(), eigenvalue: shown(re, im) }
+            }
+        })?;
+        exact.iter().map(|(re, im, count)| (R::from_rational(re), R::from_rational(im), *count)).collect()
+    };
+    let rank = |(re, im, _): &Eigenvalue<R>| match (im.is_zero(), re.is_zero()) {
+        (true, _) => 0,
+        (false, false) => 1,
+        (false, true) => 2,
+    };
+    let size = |(re, im, _): &Eigenvalue<R>| re.to_float().hypot(im.to_float());
+    found.sort_by(|a, b| rank(a).cmp(&rank(b)).then(size(b).total_cmp(&size(a))));
+    Ok(found)
+}
+
+/// The eigenvalues of the real Schur form.
+fn floating<R: RealField>(motion: &Matrix<R>, scale: f64, names: &Names) -> Result<Vec<Eigenvalue<f64>>, Error> {
     let n = motion.len();
     let floats = nalgebra::DMatrix::from_fn(n, n, |i, j| motion[i][j].to_float() / scale);
     let not_finite = || Error::NotFinite { what: "quadratic part", term: names.pairs() };
@@ -58,7 +88,7 @@ pub(super) fn spectrum<R: RealField>(
         return if scale == 0.0 { Err(zero::<R>(motion, names)) } else { Err(not_finite()) };
     }
     let eigenvalues = eigenvalues(&floats).ok_or_else(not_finite)?;
-    let mut found: Vec<(f64, f64, usize)> = Vec::new();
+    let mut found: Vec<Eigenvalue<f64>> = Vec::new();
     for value in &eigenvalues {
         if value.norm() < ROOT {
             return Err(zero::<R>(motion, names));
@@ -73,16 +103,6 @@ pub(super) fn spectrum<R: RealField>(
             None => found.push((re, im, weight)),
         }
     }
-    let rank = |(re, im, _): &(f64, f64, usize)| {
-        if *im == 0.0 {
-            0
-        } else if *re > 0.0 {
-            1
-        } else {
-            2
-        }
-    };
-    found.sort_by(|a, b| rank(a).cmp(&rank(b)).then((b.0.hypot(b.1)).total_cmp(&a.0.hypot(a.1))));
     // Each count is four times the multiplicity: from ±λ, ±λ̄, or twice from ±λ.
     Ok(found.into_iter().map(|(re, im, count)| (re * scale, im * scale, count.div_ceil(4))).collect())
 }
@@ -132,49 +152,33 @@ fn complexified<R: RealField>(motion: &Matrix<R>, eigenvalue: &R::Complex) -> Ma
 /// The null vectors of λ and of −λ.
 pub(super) fn eigenspace<R: RealField>(
     motion: &Matrix<R>,
-    (re, im): (f64, f64),
-    multiplicity: usize,
+    (re, im, multiplicity): Eigenvalue<R>,
     scale: f64,
     names: &Names,
 ) -> Result<Eigenspace<R>, Error> {
-    let candidates = |value: f64| {
-        let near = |candidate: &R| (candidate.to_float() - value).abs() < 1e-9 * scale;
-        if value == 0.0 { vec![R::zero()] } else { R::candidates(value).into_iter().filter(near).collect() }
-    };
-    let defective = |vector: Option<&Vec<R::Complex>>| Error::Defective {
-        pairs: names.pairs(),
-        eigenvalue: shown(re, im),
-        direction: vector.map(|vector| names.direction::<R>(vector)).unwrap_or_default(),
-    };
     let nulls = |re: &R, im: &R, dimension| {
         null_space::<R>(complexified(motion, &R::complex(re.clone(), im.clone())), dimension, ROOT * scale)
     };
-    for (a, b) in candidates(re).iter().flat_map(|a| candidates(im).into_iter().map(move |b| (a.clone(), b))) {
-        if let Some(vectors) = nulls(&a, &b, multiplicity) {
-            let opposite = if re == 0.0 { None } else { nulls(&-a.clone(), &-b.clone(), multiplicity) };
-            if re > 0.0 && opposite.is_none() {
-                return Err(defective(vectors.first()));
-            }
-            return Ok(Eigenspace { re: a, im: b, vectors, opposite: opposite.unwrap_or_default() });
-        }
-        // There are fewer vectors than the multiplicity.
-        for fewer in (1..multiplicity).rev() {
-            if let Some(vectors) = nulls(&a, &b, fewer) {
-                return Err(defective(vectors.first()));
-            }
-        }
-    }
-    if R::EPSILON > 0.0 {
-        return Err(defective(None));
-    }
-    Err(Error::SpectrumIrrational { pairs: names.pairs(), eigenvalue: shown(re, im) })
+    let defective = |vectors: Option<Vec<Vec<R::Complex>>>| Error::Defective {
+        pairs: names.pairs(),
+        eigenvalue: shown(re.to_float(), im.to_float()),
+        direction: vectors.iter().flatten().next().map(|vector| names.direction::<R>(vector)).unwrap_or_default(),
+    };
+    let Some(vectors) = nulls(&re, &im, multiplicity) else {
+        return Err(defective((1..multiplicity).rev().find_map(|fewer| nulls(&re, &im, fewer))));
+    };
+    let opposite = if re.is_zero() { Some(Vec::new()) } else { nulls(&-re.clone(), &-im.clone(), multiplicity) };
+    let Some(opposite) = opposite else { return Err(defective(Some(vectors))) };
+    Ok(Eigenspace { re, im, vectors, opposite })
 }
 
+/// Eigenvalues for a message, with ten digits.
 pub(super) fn shown(re: f64, im: f64) -> String {
+    let digits = |value: f64| if (1e-3..1e6).contains(&value) { format!("{value:.9}") } else { format!("{value:.9e}") };
     match (re > 0.0, im > 0.0) {
-        (true, true) => format!("±{re:.9} ± {im:.9}i"),
-        (true, false) => format!("±{re:.9}"),
-        _ => format!("±{im:.9}i"),
+        (true, true) => format!("±{} ± {}i", digits(re), digits(im)),
+        (true, false) => format!("±{}", digits(re)),
+        _ => format!("±{}i", digits(im)),
     }
 }
 

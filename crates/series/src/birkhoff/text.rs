@@ -54,7 +54,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         for (function, (monomial, c)) in
             part.cosine.terms().map(|term| ("cos", term)).chain(part.sine.terms().map(|term| ("sin", term)))
         {
-            let twelve_digits = || R::candidates(rounded(c.to_float(), c.to_float().abs())).pop();
+            let twelve_digits = || R::from_float(rounded(c.to_float(), c.to_float().abs()));
             let (negative, magnitude) =
                 if R::EPSILON > 0.0 { twelve_digits() } else { None }.as_ref().unwrap_or(c).literal();
             write!(formatter, " {} ", if negative { '-' } else { '+' })?;
@@ -115,7 +115,7 @@ pub(crate) fn significant<R: RealField>(
     let terms = polynomial.terms().map(|(monomial, c)| {
         let (re, im) = R::parts(c);
         let size = largest.get(&degree(monomial)).copied().unwrap_or_default();
-        let rounded = |part: R| R::candidates(rounded(part.to_float(), size)).pop().unwrap_or_else(R::zero);
+        let rounded = |part: R| R::from_float(rounded(part.to_float(), size)).unwrap_or(part);
         (monomial, R::complex(rounded(re), rounded(im)))
     });
     Polynomial::from_terms(terms)

@@ -22,8 +22,8 @@ pub(crate) fn diagonalized<R: RealField>(a: &Matrix<R>, names: &dyn Fn(usize) ->
     let scale = a.iter().flatten().map(|entry| entry.to_float().abs()).fold(0.0, f64::max);
     let motion = turned_rows(a);
     let mut spaces = Vec::new();
-    for (re, im, multiplicity) in spectrum(&motion, scale, &names)? {
-        spaces.push(eigenspace(&motion, (re, im), multiplicity, scale, &names)?);
+    for eigenvalue in spectrum(&motion, scale, &names)? {
+        spaces.push(eigenspace(&motion, eigenvalue, scale, &names)?);
     }
     let mut columns = Vec::new();
     let mut modes = Vec::new();
@@ -200,7 +200,7 @@ fn balanced<R: RealField>(v: Vec<R::Complex>, w: Vec<R::Complex>) -> Result<[Vec
     }
     let length = |vector: &[R::Complex]| vector.iter().map(|value| modulus::<R>(value).powi(2)).sum::<f64>();
     let factor = (length(&w) / length(&v)).powf(0.25);
-    let [up, down] = [factor, factor.recip()].map(|factor| R::candidates(factor).pop());
+    let [up, down] = [factor, factor.recip()].map(|factor| R::from_float(factor));
     let (up, down) = (up.ok_or(Error::DivisionByZero)?, down.ok_or(Error::DivisionByZero)?);
     Ok([scaled(&v, &R::complex(up, R::zero())), scaled(&w, &R::complex(down, R::zero()))])
 }

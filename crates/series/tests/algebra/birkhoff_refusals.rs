@@ -48,7 +48,7 @@ fn a_point_without_a_diagonal_form_is_refused_by_term() {
     );
     assert_message(
         "x^2 + X^2 + y^2 + Y^2 + x*y",
-        "the eigenvalues ±2.449489743i of the quadratic part in (x, X), (y, Y) are not rational (with a denominator below 1e7): use floats, or, if all frequencies are rational multiples of one root, write a parameter w for the root and scale w away (PhaseSpace::scaled; in Python the argument frequency)",
+        "the eigenvalues ±2.449489743i of the quadratic part in (x, X), (y, Y) are not rational: use floats, or, if all frequencies are rational multiples of one root, write a parameter w for the root and scale w away (PhaseSpace::scaled; in Python the argument frequency)",
     );
     assert_message(
         "x^2 + X^2 + y^2 + Y^2/2",

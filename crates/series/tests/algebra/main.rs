@@ -10,6 +10,7 @@ mod calculus;
 mod driven;
 mod energy;
 mod equilibria;
+mod exact_spectrum;
 mod hamiltonians;
 mod homological;
 mod json;
