@@ -137,6 +137,5 @@ fn complex_figure(squares: &Univariate) -> (f64, f64) {
         false => f64::from(u8::from(i == j + 1)),
     });
     let roots = float_eigenvalues(&companion).unwrap_or_default();
-    let first = roots.first().map_or((f64::NAN, f64::NAN), |root| (root.re * size, root.im * size));
-    first
+    roots.first().map_or((f64::NAN, f64::NAN), |root| (root.re * size, root.im * size))
 }
