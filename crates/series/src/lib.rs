@@ -53,7 +53,7 @@ pub use polynomial::{Polynomial, Truncation};
 pub mod lie {
     //! Lie transforms: the bracket, the homological equation, Deprit's triangle.
     pub use crate::bracket::Poisson;
-    pub use crate::driven::{Driven, driven_triangle};
+    pub use crate::driven::Driven;
     pub use crate::homological::Homological;
     pub use crate::triangle::{LieTransform, Normalization, deprit_triangle};
 }
