@@ -11,8 +11,6 @@
 //! contractions c_m of the tensor Θ = (a/r)³ r̂r̂: c₀ = Θ33 − tr Θ/3, c₁ = Θ13 − iΘ23 and
 //! c₂ = Θ11 − Θ22 − 2iΘ12. These are here; Θ is in `orbit/tensor.rs`, the factors T_m of the body in `gravity_gradient/inertia.rs`. The integration multiplies
 //! series in time of √(2Γ) (a/r)^(3/2) r̂ (`integration/expansion.rs`).
-//!
-//! Imports numerics, simd and orbit.
 
 use crate::numerics::C64;
 use crate::orbit::elements::Orbit;

@@ -1,7 +1,6 @@
 //! The error of a motion, measured: the full equations are integrated once more, and the attitudes are compared.
 //!
-//! The integration is about the body axes (2, 3, 1). With them its steps have other lengths and its sums other rounding errors, so that it also measures a
-//! motion that was integrated itself. Its own error bound comes from displaced states (docs/architecture.md, Integrated). The cost is that of
+//! The integration is about the body axes (2, 3, 1). Permuted axes give other steps and other rounding: the check is independent of an integrated motion. Its own error bound comes from displaced states (docs/architecture.md, Integrated). The cost is that of
 //! `Method::Integrated` over the same span.
 
 use std::fmt;

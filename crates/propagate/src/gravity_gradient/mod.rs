@@ -14,8 +14,6 @@
 //! `Term::all`. A third degree would need other contractions, other powers of a/r and a body without planes of symmetry, whose coefficients are not real.
 //!
 //! Tuned floats stand in `constants.rs` under their kind, with the command that measures it; tuned whole numbers stand in the file that uses them.
-//!
-//! Imports errors, numerics, simd, orbit, torque, input and torque_free.
 
 mod averaged;
 pub(crate) mod constants;

@@ -1,6 +1,4 @@
 //! The user's input: body and catalogue, state, torques, options, scene. All values are validated here, those of an orbit in [`crate::orbit`].
-//!
-//! Imports errors and orbit.
 
 pub(crate) mod body;
 mod catalogue;

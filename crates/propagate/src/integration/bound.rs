@@ -77,7 +77,7 @@ const LANES: usize = 4 * PATTERNS;
 const ENLARGED: f64 = 1e-3;
 /// An enlarged displacement larger than this does not grow linearly, and is not used \[rad\].
 const UNSCALED: f64 = 0.1;
-/// A distance beyond which it is made smaller \[rad\], and by how much.
+/// A displacement larger than `FAR` \[rad\] is multiplied by `SMALLER`.
 const FAR: f64 = 0.01;
 const SMALLER: f64 = 0.1;
 

@@ -178,7 +178,7 @@ impl<'a> ColumnBlock<'a> {
         }
     }
 
-    /// The length, `whole` at most, at which the last terms of each column are a rounding error of the largest one: torques turn several times as fast as the attitude's
+    /// The largest h ≤ `whole` such that the last two terms of every column are below `ERROR` of its largest. Torques turn several times as fast as the attitude's
     /// quaternion, and where they are weak the motion's own series does not show it.
     #[inline(always)]
     pub(super) fn longest(&self, whole: f64, order: usize) -> f64 {

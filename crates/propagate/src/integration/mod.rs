@@ -6,8 +6,6 @@
 //! bound, without its compilation; at equal tolerance 1.2 to 1.7 times as long (`make rivals-integration`, benches/README.md).
 //!
 //! Members of an ensemble are integrated together, each in a lane of a vector ([`several`], [`lane_tasks`], [`lanes`], [`lane_series`]).
-//!
-//! Imports errors, numerics, simd, orbit, torque, input and motion.
 
 mod bound;
 pub(crate) mod columns;

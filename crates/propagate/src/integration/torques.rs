@@ -93,8 +93,8 @@ impl Torques {
         })
     }
 
-    /// The fastest rate that the torques bring in, and one that lasts: those of damping and rotors, and the roots of the accelerations at the epoch's rates, with the
-    /// sources where they are nearest and farthest.
+    /// (largest rate of the torques at the epoch, largest rate that stays): those of damping and rotors, and the roots of the accelerations at the epoch's rates, with the
+    /// sources at their nearest and at their farthest points.
     pub(super) fn rates(&self) -> [f64; 2] {
         [0, 1].map(|end| {
             let polynomials = self.polynomials.iter().map(|recipe| recipe.size[end]).sum::<f64>();

@@ -2,8 +2,6 @@
 //!
 //! `shape` has the equations, `lock` finds the resonance of a scene and its variables, `energy` is the Hamiltonian, `form` normalizes it about the periodic motion, `convergence`
 //! estimates the error of an order, `course` makes the Fourier series of one motion, `residual` inserts it into the equations of motion, `solution` climbs the orders until the estimate meets the tolerance, `evaluate` evaluates with `waves`, `terms` is what a user reads.
-//!
-//! Imports errors, numerics, simd, orbit, torque and input.
 
 mod convergence;
 mod course;

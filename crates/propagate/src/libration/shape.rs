@@ -106,7 +106,7 @@ impl LockedShape {
         }
     }
 
-    /// The j and k of multiples of the phases of a normal form, and the constant angle that e^{i(jM + kα)} has more than they.
+    /// The multiples (j, k) of M and α in a term of a normal form, and the term's constant angle.
     pub(crate) fn multiples(&self, phases: &[i64]) -> ([i64; 2], f64) {
         match (self.phases(), phases) {
             (Phases::Anomaly, &[j]) => ([j, 0], 0.0),

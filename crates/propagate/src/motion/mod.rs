@@ -1,6 +1,4 @@
 //! A solved motion: its trajectory (the formulas that evaluate it), plan, evaluation at times, Andoyer variables and energy.
-//!
-//! Imports errors, numerics, simd, orbit, input, torque_free, gravity_gradient, integration and libration.
 
 mod andoyer;
 pub(crate) mod batch;

@@ -3,7 +3,7 @@
 //! The text is a head, the constants of the motion (`constants`) and a kernel that is the same for all motions (`kernel/`). The printers of
 //! `andoyer_series::print` write head and constants. The kernel has two phases in turns with products in two doubles by Veltkamp's and Dekker's splitting, one
 //! sine and cosine a phase, the sums of theory §8 and the constant frame. The kernel in Rust is compiled here too (`measured`), and its largest difference from
-//! the library stands in the head. The text is the same in every run and holds no date. Imports error, numerics, simd, torque_free and motion.
+//! the library stands in the head. The text is the same in every run and holds no date.
 
 mod constants;
 mod head;

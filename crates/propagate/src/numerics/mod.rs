@@ -1,6 +1,4 @@
 //! Scalar numerics: phases in double-double, scaling by powers of two, the theta quantities of a polhode.
-//!
-//! Imports errors only.
 
 pub(crate) mod kept;
 pub(crate) mod phase;

@@ -1,6 +1,4 @@
 //! Scenes from published quantities: a pair of periods, or Andoyer variables.
-//!
-//! Imports errors, numerics, input, torque_free, motion and solve.
 
 mod andoyer;
 pub(crate) mod periods;

@@ -4,8 +4,6 @@
 //! - The position at a time: of an ellipse in lanes in `position.rs`, with Kepler's equation in `kepler.rs`; of any orbit at one time in `from_state.rs`, with
 //!   `hyperbola.rs`; of a table in `table.rs`. The integration has series in time of its own (`integration/path_series.rs`).
 //! - (a/r)³ r̂r̂ as a function of time: its turns in `tensor.rs`, time derivatives in `derivatives.rs`, harmonics of the mean anomaly in `hansen.rs`, sizes within a span in `span.rs`.
-//!
-//! Imports errors, numerics and simd.
 
 pub(crate) mod derivatives;
 pub(crate) mod disturbing_body;

@@ -8,8 +8,6 @@
 //!
 //! For a body with an inertia tensor there are twelve parameters: the six elements of the tensor replace the moments (`tensor.rs`). Under a torque the derivatives,
 //! also with respect to the orbits (`parameters.rs`), come from variational equations, or far from the epoch of an averaged motion from differences (`forced.rs`).
-//!
-//! Imports errors, numerics, simd, orbit, input, torque_free, motion, solve and integration.
 
 mod constants;
 mod derivatives;

@@ -1,8 +1,6 @@
 //! Evaluation at several times at once with the best instruction set available. The folder has lanes, instruction sets, sines and cosines, complex numbers,
 //! their powers and quaternions in lanes, double-doubles, the arithmetic-geometric mean and Carlson's R_F in lanes, phases in lanes, the
 //! table of a uniform grid, and the loop over times for any type of motion.
-//!
-//! Imports errors and numerics.
 
 pub(crate) mod circles;
 pub(crate) mod complex_quaternion;

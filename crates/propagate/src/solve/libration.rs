@@ -29,7 +29,7 @@ use crate::torque_free::series::tables::SeriesTables;
 const CHECKED: [f64; 2] = [30.0, 1000.0];
 /// Times at which they are compared.
 const TIMES: usize = 64;
-/// What was seen at these times becomes an error bound times this and the growth over the span.
+/// error bound = `SAFETY` · largest difference · (span / compared span).
 const SAFETY: f64 = 2.0;
 /// The least tolerance of this integration \[rad\].
 const FINEST: f64 = 1e-12;

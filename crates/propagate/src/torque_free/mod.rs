@@ -1,7 +1,5 @@
 //! The Euler–Poinsot problem, theory §1 to §8 and §10: polhode, mode, frequencies, harmonics, the closed form, the separatrix, steady rotation and the error
 //! budget. [`series`] is the perturbation series of the paper.
-//!
-//! Imports errors, numerics, simd and input.
 
 pub(crate) mod closed_form;
 mod columns;

@@ -188,7 +188,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     }
 }
 
-/// A series with the name of its left side and the names of its variables, which are the new ones if they have primes.
+/// `name` = `series`. If `primed`, its variables are the new ones.
 pub(crate) struct Line<R: RealField> {
     pub(crate) name: String,
     pub(crate) series: Polynomial<R::Complex>,

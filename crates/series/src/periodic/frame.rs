@@ -17,7 +17,7 @@ use crate::error::Error;
 
 /// A step below this is rounding.
 pub(super) const REACHED: f64 = 1e-14;
-/// A step that is not smaller than this part of the one before ends the iteration, where both are small.
+/// The iteration ends if step > `SLOWEST` · last step and both are below `SMALL`.
 pub(super) const SLOWEST: f64 = 0.5;
 pub(super) const SMALL: f64 = 1e-9;
 /// A divisor below this part of the eigenvalue is a resonance, unless the harmonic is rounding: below the second number, in units of the largest frequency.

@@ -29,7 +29,7 @@ pub trait DrivenHamiltonian: Sync {
     ) -> Result<Polynomial<Periodic>, Error>;
 
     /// The largest difference between a coefficient and its interpolation, at phases between the times of a grid, relative to this coefficient. A harmonic beyond the grid passes for
-    /// a lower one at its times. The default is 0, for coefficients that have all harmonics up to their highest, as those of an ellipse: the last ones tell.
+    /// a lower one at its times. The default is 0: no test, for coefficients with all harmonics up to the highest, as for an ellipse, whose last harmonics show the error.
     ///
     /// # Errors
     /// - Those of the coefficients; a coefficient that does not have the period 2π of a phase: [`Error::NotPeriodic`].

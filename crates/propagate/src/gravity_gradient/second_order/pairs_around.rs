@@ -205,8 +205,8 @@ fn sources(
     sources
 }
 
-/// The pairs of these terms that have one of these totals, or its opposite: the index of the total; the indices of the two rows, where row 0 is ⟨D⟩ and each term is followed
-/// by its conjugate; and true for the opposite. The first of each pair is ⟨D⟩ or a term, and not the conjugate of one.
+/// For each pair of terms with one of these totals or its negative: (index of the total, \[row a, row b\], whether the pair has the negative of the total). Row 0 is ⟨D⟩;
+/// term k has row 2k + 1 and its conjugate row 2k + 2. Row a is ⟨D⟩ or a term.
 fn pairs(listed: &[PairTerm], totals: &[PairSum]) -> Vec<(usize, [usize; 2], bool)> {
     let mut pairs = Vec::new();
     for (k, b) in listed.iter().enumerate() {

@@ -1,7 +1,5 @@
 //! The perturbation series of the paper: tables of the normal form at a body's β, their Fourier coefficients for one motion, and the order that a tolerance
 //! needs.
-//!
-//! Imports what [`super`] imports, and its sibling modules there. It is the only folder that uses the series crate.
 
 pub(crate) mod composition;
 pub(crate) mod order;
