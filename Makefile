@@ -107,14 +107,14 @@ libration-cost: $(VENV)/installed  ## librations by order and eccentricity: docs
 kernels:
 	cargo build --release --locked --quiet -p andoyer-py -p andoyer-benches --features andoyer-benches/programs --bin kernels
 
-gate: kernels  ## instruction counts of five kernels against benches/instructions.json, where there is valgrind
+gate: kernels  ## instruction counts of ten kernels against benches/instructions.json, where there is valgrind
 	$(PYTHON) benches/gate.py target/release/kernels
 
 gate-write: kernels  ## takes the counts of now as those to keep
 	$(PYTHON) benches/gate.py target/release/kernels --write
 
 memcheck: kernels  ## valgrind over the kernels, whose SIMD is pulp's (there is no unsafe code here)
-	for kernel in normalize numeric solve-closed solve-series evaluate; do valgrind --quiet --error-exitcode=1 target/release/kernels $$kernel 1 || exit 1; done
+	for kernel in normalize numeric solve-closed solve-series evaluate integrate member derivatives libration periodic; do valgrind --quiet --error-exitcode=1 target/release/kernels $$kernel 1 || exit 1; done
 
 stress: $(VENV)/installed  ## 240,000 random scenes of every regime against 40 digits: docs/data/stress.csv, docs/accuracy.md; minutes
 	$(BIN)/python tests/stress/run.py --write

@@ -3,33 +3,12 @@
 
 mod short;
 
-use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 
-use andoyer_propagate::Orbit;
-use andoyer_series::periodic::{DrivenForm, DrivenHamiltonian, DrivenOptions, SampledHamiltonian};
+use andoyer_benches::{SHAPE, planar};
+use andoyer_series::periodic::{DrivenForm, DrivenHamiltonian, DrivenOptions};
 use andoyer_series::progress::quiet;
-use andoyer_series::{Error, Monomial};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-
-const SHAPE: f64 = 0.02;
-
-/// p²/2 − (3/4) s (a/ρ)³ cos 2(ψ + M − f) about ψ = 0, p = 1.
-fn planar(eccentricity: f64, degree: u32) -> impl DrivenHamiltonian {
-    let orbit = Orbit::new(1.0, eccentricity).and_then(|orbit| orbit.semi_major_axis(1.0)).expect("an ellipse");
-    SampledHamiltonian::new(1, move |phases: &[f64]| {
-        let [x, y, _] = orbit.position(phases[0]).expect("a time");
-        let (cube, angle) = (x.hypot(y).powi(-3), 2.0 * (phases[0] - y.atan2(x)));
-        let mut factor = 1.0;
-        let slopes = (1..=degree).map(|k| {
-            factor *= 2.0 / f64::from(k);
-            // The k-th derivative of the cosine.
-            let slope = (angle + f64::from(k) * FRAC_PI_2).cos();
-            Ok((Monomial::new(&[k, 0])?, -0.75 * SHAPE * cube * factor * slope))
-        });
-        std::iter::once(Ok((Monomial::new(&[0, 2])?, 0.5))).chain(slopes).collect::<Result<Vec<_>, Error>>()
-    })
-}
 
 fn form(system: &dyn DrivenHamiltonian, order: usize, tolerance: f64) -> DrivenForm {
     let options = DrivenOptions { order, tolerance, harmonics: 252, smallest_divisor: 1e-9 };

@@ -1,7 +1,11 @@
 //! What the benchmarks share. Ids are `task/size/engine`; each closure asserts its answer.
 
+use std::f64::consts::FRAC_PI_2;
+
 use andoyer_propagate::nalgebra::{UnitQuaternion, Vector3};
 use andoyer_propagate::{Body, Method, Orbit, Scene, State};
+use andoyer_series::periodic::{DrivenHamiltonian, SampledHamiltonian};
+use andoyer_series::{Error, Monomial};
 
 /// A triaxial body (β = ½) at σ/σ_sep = 0.34, where a tolerance of 1e-12 takes order 25.
 ///
@@ -69,4 +73,27 @@ pub fn wobbling(body: &Body, ratio: f64) -> Scene {
     let rates = [g1 / least, g2 / middle, (1.0 - g1 * g1 - g2 * g2).sqrt() / greatest];
     let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], rates).expect("a state");
     Scene::new(body.clone(), state)
+}
+
+/// (B − A)/C of the body whose planar libration [`planar`] is.
+pub const SHAPE: f64 = 0.02;
+
+/// p²/2 − (3/4) s (a/ρ)³ cos 2(ψ + M − f) about ψ = 0, p = 1, to a degree in ψ.
+///
+/// # Panics
+/// For an eccentricity below 0, or of 1 and more.
+pub fn planar(eccentricity: f64, degree: u32) -> impl DrivenHamiltonian {
+    let orbit = Orbit::new(1.0, eccentricity).and_then(|orbit| orbit.semi_major_axis(1.0)).expect("an ellipse");
+    SampledHamiltonian::new(1, move |phases: &[f64]| {
+        let [x, y, _] = orbit.position(phases[0]).expect("a time");
+        let (cube, angle) = (x.hypot(y).powi(-3), 2.0 * (phases[0] - y.atan2(x)));
+        let mut factor = 1.0;
+        let slopes = (1..=degree).map(|k| {
+            factor *= 2.0 / f64::from(k);
+            // The k-th derivative of the cosine.
+            let slope = (angle + f64::from(k) * FRAC_PI_2).cos();
+            Ok((Monomial::new(&[k, 0])?, -0.75 * SHAPE * cube * factor * slope))
+        });
+        std::iter::once(Ok((Monomial::new(&[0, 2])?, 0.5))).chain(slopes).collect::<Result<Vec<_>, Error>>()
+    })
 }

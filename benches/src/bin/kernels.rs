@@ -6,8 +6,10 @@
 use std::hint::black_box;
 use std::process::ExitCode;
 
-use andoyer_benches::{bodies, triaxial, wobbling};
-use andoyer_propagate::Method;
+use andoyer_benches::{bodies, disturbed, locked, planar, triaxial, wobbling};
+use andoyer_propagate::{Ensemble, Method, Orbit};
+use andoyer_series::periodic::{DrivenForm, DrivenOptions};
+use andoyer_series::progress::quiet;
 use andoyer_series::{NormalForm, NumericNormalForm};
 
 const SAMPLES: usize = 10_000;
@@ -42,6 +44,49 @@ fn evaluate() {
     assert!((norm - 1.0).abs() < 1e-14);
 }
 
+/// The full equations over 20 rotations with their error bound, and the attitude at the end.
+fn integrate() {
+    let scene = disturbed(0.1).method(Method::Integrated).span(0.0, 125.0).tolerance(1e-10);
+    let motion = scene.solve().expect("an integration");
+    assert!(motion.plan().error_bound() < 1e-10);
+    black_box(motion.at(125.0).expect("a time"));
+}
+
+/// 16 integrated members of an ensemble with their error bounds, at five times each.
+fn member() {
+    const MEMBERS: usize = 16;
+    let orbit = Orbit::new(2e-3, 0.1).expect("an ellipse");
+    let rates = (0..MEMBERS).map(|k| [0.006, 0.02, 0.9 + 0.01 * k as f64]).collect();
+    let ensemble = Ensemble::new(vec![[1.0, 1.02, 1.05]; MEMBERS], vec![[0.0, 0.0, 0.0, 1.0]; MEMBERS], rates);
+    let ensemble = ensemble.and_then(|members| members.orbits(vec![Some(orbit); MEMBERS])).expect("members");
+    let ensemble = ensemble.method(Method::Integrated).span(0.0, 125.0).tolerance(1e-10).threads(1);
+    let mut attitudes = [[0.0; 4]; 5 * MEMBERS];
+    ensemble.attitudes_into(black_box(&[0.0, 30.0, 60.0, 90.0, 125.0]), &mut attitudes).expect("integrated");
+}
+
+/// Derivatives at 20 times: of a free motion in closed form, and of an integrated one by variational equations.
+fn derivatives() {
+    let times: [f64; 20] = std::array::from_fn(|k| 6.0 * k as f64);
+    let (mut attitudes, mut rates) = ([[[0.0; 9]; 3]; 20], [[[0.0; 9]; 3]; 20]);
+    for scene in [triaxial(), disturbed(0.1).method(Method::Integrated).span(0.0, 125.0).tolerance(1e-10)] {
+        let motion = scene.solve().expect("a motion");
+        motion.partials_into(black_box(&times), &mut attitudes, &mut rates).expect("derivatives");
+    }
+}
+
+/// A libration of 2 degrees on a circle over 1,000 orbits, order 6.
+fn libration() {
+    let motion = locked(0.0, 2.0).order(6).solve().expect("a libration");
+    assert_eq!(motion.plan().method(), Method::Libration);
+}
+
+/// The form of order 6 about the periodic planar libration on an orbit of eccentricity 0.05.
+fn periodic() {
+    let options = DrivenOptions { order: 6, tolerance: 1e-10, harmonics: 252, smallest_divisor: 1e-9 };
+    let form = DrivenForm::new(&planar(0.05, 8), &[1.0], black_box(options), &mut quiet).expect("no resonance");
+    assert_eq!(form.modes().len(), 1);
+}
+
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
     let (Some(name), Some(Ok(repeats))) = (arguments.next(), arguments.next().map(|text| text.parse::<usize>())) else {
@@ -54,6 +99,11 @@ fn main() -> ExitCode {
             "solve-closed" => solve(Method::Closed),
             "solve-series" => solve(Method::Series),
             "evaluate" => evaluate(),
+            "integrate" => integrate(),
+            "member" => member(),
+            "derivatives" => derivatives(),
+            "libration" => libration(),
+            "periodic" => periodic(),
             _ => return ExitCode::from(2),
         }
     }

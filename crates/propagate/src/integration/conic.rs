@@ -11,9 +11,8 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use super::series::{GRAVITY, RECIPROCALS, ROWS, Row, Scalars, Series, ZERO, add_scaled, product};
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
+use crate::orbit::conic::ConicPoint;
 use crate::orbit::elements::Orbit;
-use crate::orbit::hyperbola::hyperbolic_anomaly;
-use crate::orbit::kepler::eccentric_anomaly;
 use crate::orbit::position::singularity;
 use crate::simd::instruction_set::InstructionSet;
 
@@ -337,37 +336,6 @@ fn turned([x, y, z, _]: Row, (sine, cosine): (f64, f64)) -> Row {
 #[inline(always)]
 fn tilted([x, y, ..]: Row, (sine, cosine): (f64, f64)) -> Row {
     [x, y * cosine, y * sine, 0.0]
-}
-
-/// The place on a conic at the start of a step.
-struct ConicPoint {
-    /// The position along the direction to the pericentre.
-    x: f64,
-    /// Of the eccentric anomaly; hyperbolic ones on a hyperbola.
-    sine: f64,
-    cosine: f64,
-    radius: f64,
-    /// −1 on a hyperbola.
-    sign: f64,
-}
-
-impl ConicPoint {
-    #[inline(always)]
-    fn on_ellipse(mean: f64, e: f64) -> Self {
-        let anomaly = if e == 0.0 { mean } else { eccentric_anomaly(mean, e) };
-        let (half_sine, half_cosine) = (0.5 * anomaly).sin_cos();
-        let versed = 2.0 * half_sine * half_sine;
-        let sine = 2.0 * half_sine * half_cosine;
-        Self { x: (1.0 - e) - versed, sine, cosine: 1.0 - versed, radius: (1.0 - e) + e * versed, sign: 1.0 }
-    }
-
-    fn on_hyperbola(mean: f64, e: f64) -> Self {
-        let anomaly = hyperbolic_anomaly(mean, e);
-        let half = (0.5 * anomaly).sinh();
-        let versed = 2.0 * half * half;
-        let radius = (e - 1.0) + e * versed;
-        Self { x: (e - 1.0) - versed, sine: anomaly.sinh(), cosine: 1.0 + versed, radius, sign: -1.0 }
-    }
 }
 
 /// Coefficient k of E′ times the rows, of the factor times the rows, and of the factor times the position, each without the first coefficient of the second

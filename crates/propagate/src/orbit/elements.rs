@@ -10,6 +10,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::Error;
 use crate::numerics::phase::Phase;
+use crate::orbit::conic::true_anomaly;
 use crate::orbit::hyperbola::hyperbolic_anomaly;
 use crate::orbit::kepler::Place;
 use crate::simd::lanes::Lanes;
@@ -404,9 +405,7 @@ impl Orbit {
         check("time", time, bounded, "finite and within 1e15 periods of the pericentre")?;
         if self.is_hyperbola() {
             let anomaly = hyperbolic_anomaly(self.hyperbolic_mean_anomaly(time, (0.0, 0.0)), self.eccentricity);
-            return Ok(
-                2.0 * (((self.eccentricity + 1.0) / (self.eccentricity - 1.0)).sqrt() * (0.5 * anomaly).tanh()).atan()
-            );
+            return Ok(true_anomaly(anomaly, self.eccentricity));
         }
         let anomaly = self.mean_anomaly(self.time_of_pericentre).angle((time - self.time_of_pericentre, 0.0));
         // The angle of half a turn may have either sign.

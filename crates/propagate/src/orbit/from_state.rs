@@ -14,8 +14,8 @@ use nalgebra::Vector3;
 
 use super::elements::{MOST_TURNS, Orbit, check};
 use crate::error::Error;
-use crate::orbit::hyperbola::{hyperbolic_anomaly, mean_anomaly};
-use crate::orbit::kepler::eccentric_anomaly;
+use crate::orbit::conic::{ConicPoint, true_anomaly};
+use crate::orbit::hyperbola::mean_anomaly;
 
 const CONIC: &str = "other than 1 for this position, velocity and gm: parabolas and straight falls have no orbit here";
 
@@ -69,10 +69,9 @@ impl Orbit {
             let eccentricity = 1.0 + square / (1.0 + (1.0 + square).sqrt());
             let orbit = Self::new(rate(inverse), eccentricity)?;
             let anomaly = (radial * (inverse / gm).sqrt() / eccentricity).asinh();
-            let true_anomaly =
-                2.0 * (((eccentricity + 1.0) / (eccentricity - 1.0)).sqrt() * (0.5 * anomaly).tanh()).atan();
+            let argument = latitude - true_anomaly(anomaly, eccentricity);
             return orbit
-                .plane(inclination, node, (latitude - true_anomaly).rem_euclid(TAU))?
+                .plane(inclination, node, argument.rem_euclid(TAU))?
                 .time_of_pericentre(time_past(mean_anomaly(anomaly, eccentricity), orbit.mean_motion()))?
                 .semi_major_axis(length / inverse);
         }
@@ -85,11 +84,9 @@ impl Orbit {
         let (eccentricity, anomaly) = (along.hypot(across), across.atan2(along));
         let mean_motion = rate(inverse);
         let orbit = Self::new(mean_motion, eccentricity)?;
-        let (half_sine, half_cosine) = (0.5 * anomaly).sin_cos();
-        let true_anomaly =
-            2.0 * ((1.0 + eccentricity).sqrt() * half_sine).atan2((1.0 - eccentricity).sqrt() * half_cosine);
+        let argument = latitude - true_anomaly(anomaly, eccentricity);
         orbit
-            .plane(inclination, node, (latitude - true_anomaly).rem_euclid(TAU))?
+            .plane(inclination, node, argument.rem_euclid(TAU))?
             .time_of_pericentre(time_past(anomaly - across, mean_motion))?
             .semi_major_axis(axis * length)
     }
@@ -122,18 +119,12 @@ impl Orbit {
         check("time", time, reached, "finite and within 1e15 periods of the pericentre")?;
         let e = self.eccentricity();
         let [to_pericentre, ahead, _] = self.axes_after(epoch, since);
-        if self.is_hyperbola() {
-            let anomaly = hyperbolic_anomaly(self.hyperbolic_mean_anomaly(epoch, (since, 0.0)), e);
-            let half = (0.5 * anomaly).sinh();
-            let (along, across) = ((e - 1.0) - 2.0 * half * half, ((e - 1.0) * (e + 1.0)).sqrt() * anomaly.sinh());
-            return Ok(to_pericentre * along + ahead * across);
-        }
-        let anomaly = self.mean_anomaly(epoch).angle((since, 0.0));
-        // With the eccentric anomaly E: cos E − e and η sin E. With the true anomaly, 1 + e cos f would cancel for e → 1.
-        let eccentric = eccentric_anomaly(anomaly, e);
-        let half = (0.5 * eccentric).sin();
-        let (along, across) = ((1.0 - e) - 2.0 * half * half, ((1.0 - e) * (1.0 + e)).sqrt() * eccentric.sin());
-        Ok(to_pericentre * along + ahead * across)
+        let point = if self.is_hyperbola() {
+            ConicPoint::on_hyperbola(self.hyperbolic_mean_anomaly(epoch, (since, 0.0)), e)
+        } else {
+            ConicPoint::on_ellipse(self.mean_anomaly(epoch).angle((since, 0.0)), e)
+        };
+        Ok(to_pericentre * point.x + ahead * (((1.0 - e) * (1.0 + e)).abs().sqrt() * point.sine))
     }
 }
 

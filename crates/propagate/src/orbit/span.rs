@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::derivatives::{ORDERS, Orbital};
 use super::position::eta;
+use crate::orbit::conic::true_anomaly;
 use crate::orbit::kepler::eccentric_anomaly;
 
 /// Points of a span at which the sizes are taken.
@@ -89,9 +90,7 @@ impl Reach {
     }
 
     fn true_anomaly(&self, mean: f64) -> f64 {
-        let e = self.eccentricity;
-        let half = 0.5 * eccentric_anomaly(wrapped(mean), e);
-        2.0 * ((1.0 + e).sqrt() * half.sin()).atan2((1.0 - e).sqrt() * half.cos())
+        true_anomaly(eccentric_anomaly(wrapped(mean), self.eccentricity), self.eccentricity)
     }
 }
 
