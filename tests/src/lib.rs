@@ -3,6 +3,7 @@
 pub mod climb;
 pub mod disturbed;
 pub mod integration;
+pub mod mean_wobble;
 
 use andoyer_propagate::Orbit;
 use serde_json::Value;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use andoyer_propagate::options::{Averaging, Level};
 use andoyer_propagate::{Body, Error, Method, Motion, Orbit, Scene, State};
-use andoyer_tests::climb::Uniform;
+use andoyer_tests::climb::{Family, Uniform};
 use andoyer_tests::disturbed::Disturbed;
 use andoyer_tests::{Case, attitude_error, cases, orbits};
 
@@ -282,4 +282,18 @@ fn a_wobble_as_slow_as_the_orbit_is_served_outside_its_resonance() {
         // The bound of the integration is 1e-12 rad.
         assert!(error <= 3e-11 && error <= theory.plan().error_bound(), "n = {n}: {error:e}");
     }
+}
+
+#[test]
+fn the_forced_wobble_is_there_where_the_mean_wobble_is_zero() {
+    let random = &mut Uniform(5);
+    let mut failed = Vec::new();
+    for k in 0..32 {
+        let scene = Family::MeanWobbleZero.random(k % 2 == 1, (Averaging::Spin, Level::SecondOrder), random);
+        let Ok(measured) = scene.measured() else { continue };
+        if measured.ratio() > 1.5 {
+            failed.push(format!("{k}: error {:.1e}, bound {:.1e}, {scene:?}", measured.error, measured.bound));
+        }
+    }
+    assert!(failed.is_empty(), "{failed:?}");
 }

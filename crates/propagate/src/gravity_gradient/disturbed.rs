@@ -64,6 +64,7 @@ impl DisturbedMotion {
     pub(crate) fn new(outset: &Outset<'_>, draft: Draft) -> Result<Self, Error> {
         let Outset { polhode, attitude, request, orbits, .. } = outset;
         let Draft { level, motion, averages, by_orbit, error } = draft;
+        let wobble = motion.largest_wobble();
         let MeanMotion { mean, change, inertia, corrections, .. } = motion;
         let exponent = polhode.scales.1;
         let momentum = polhode.invariants.momentum.to_f64();
@@ -83,7 +84,7 @@ impl DisturbedMotion {
             momentum: inertia.momentum,
             drifts: if level == Level::SecondOrder { [1.0; 2] } else { factors },
             secular: averages.secular(&inertia, &mean).map(|rate| rate * unit),
-            pair: inertia.pair.each_ref().map(|series| WobbleSeries::new(series, inertia.sigma.sqrt())),
+            pair: inertia.pair.each_ref().map(|series| WobbleSeries::new(series, wobble)),
             inertia,
             slow: slow(mean.frame),
             bodies: orbits.iter().map(|orbit| orbit.path.clone()).zip(corrections).collect(),

@@ -283,13 +283,14 @@ impl Level {
 pub(crate) struct WobbleSeries([Vec<[f64; 2]>; 2]);
 
 impl WobbleSeries {
-    pub(crate) fn new(series: &Harmonics, root: f64) -> Self {
+    /// The harmonics that count for |p| up to `wobble`.
+    pub(crate) fn new(series: &Harmonics, wobble: f64) -> Self {
         let odd = series.at(0).0 == 0.0;
         let side = |first: usize, sign: i32| {
             let terms = (first..=HIGHEST).step_by(2).map(|h| (h as i32, <[f64; 2]>::from(series.at(sign * h as i32))));
             let mut terms: Vec<_> = terms.collect();
             while let Some((degree, [value, slope])) = terms.last()
-                && root.powi(*degree) * (value.abs() + slope.abs() * root * root) < SMALLEST_HARMONIC
+                && wobble.powi(*degree) * (value.abs() + slope.abs() * wobble * wobble) < SMALLEST_HARMONIC
             {
                 terms.pop();
             }

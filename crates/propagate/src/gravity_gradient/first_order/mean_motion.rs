@@ -7,6 +7,7 @@ use crate::gravity_gradient::constants::{CONVERGED, LARGEST_CONTRACTION, STRONGE
 use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::terms::regime::Terms;
+use crate::gravity_gradient::terms::term::Sensitivity;
 use crate::orbit::elements::Orbit;
 use crate::torque::strength_for;
 use crate::torque_free::polhode::Polhode;
@@ -22,6 +23,14 @@ pub(crate) struct MeanMotion {
     pub(crate) inertia: Inertia,
     /// Of each body.
     pub(crate) corrections: Vec<Corrections>,
+}
+
+impl MeanMotion {
+    /// Upper estimate of |p| over the motion: √σ, and the changes of p by all terms. Where the mean wobble is 0, the torque still forces one.
+    pub(crate) fn largest_wobble(&self) -> f64 {
+        let turned: f64 = self.corrections.iter().map(|corrections| corrections.size + corrections.rms).sum();
+        self.inertia.sigma.sqrt() + turned / Sensitivity::new(&self.inertia).gain
+    }
 }
 
 /// The corrections for each body at a mean motion.
