@@ -7,6 +7,8 @@ import pickle
 import numpy as np
 import pytest
 from conftest import REPOSITORY
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
 import andoyer
 from andoyer import Body, Orbit, Scene, TabulatedOrbit
@@ -164,3 +166,57 @@ def test_a_body_of_nearly_no_attraction_has_derivatives_by_its_attraction():
     motion = Scene(Body([1.0, 1.3, 1.5]), *STATE, orbit=orbit, span=(0, 20)).solve()
     partials = motion.partials(20.0, with_respect_to=("orbit", "attraction"))
     assert np.abs(partials.attitude[:, :6]).max() <= 1e-290 and np.abs(partials.attitude[:, 6]).max() > 1
+
+
+def euler(moments, attitude, rates, orbit, time):
+    """Attitude of a body under the gravity gradient of a body on an orbit, by SciPy."""
+    n, e, tilt = orbit
+    moments = np.asarray(moments)
+
+    def direction(t):
+        anomaly = n * t
+        for _ in range(60):
+            anomaly -= (anomaly - e * math.sin(anomaly) - n * t) / (1 - e * math.cos(anomaly))
+        x, y = math.cos(anomaly) - e, math.sqrt(1 - e * e) * math.sin(anomaly)
+        return np.array([x, y * math.cos(tilt), y * math.sin(tilt)]), math.hypot(x, y)
+
+    def slope(t, state):
+        q, w = state[:4], state[4:]
+        place, distance = direction(t)
+        u = Rotation.from_quat(q).inv().apply(place / distance)
+        torque = 3 * n * n / distance**3 * np.cross(u, moments * u)
+        v, s = q[:3], q[3]
+        turned = 0.5 * np.array([*(s * w + np.cross(v, w)), -v @ w])
+        return np.concatenate([turned, (torque - np.cross(w, moments * w)) / moments])
+
+    state = np.concatenate([attitude, rates])
+    end = solve_ivp(slope, (0, time), state, method="DOP853", rtol=1e-13, atol=1e-14).y[:, -1]
+    return Rotation.from_quat(end[:4]), end[4:]
+
+
+@pytest.mark.parametrize("rates", [[0.2, 0.3, 1.1], [0.0, 0.0, 0.0]])
+@pytest.mark.parametrize("tensor", [False, True])
+def test_derivatives_of_a_sphere_by_its_moments_are_those_of_bodies_beside_it_under_the_torque(rates, tensor):
+    orbit, attitude, time, step = (0.3, 0.1, 0.3), [0.1, -0.3, 0.2, math.sqrt(0.86)], 12.0, 1e-4
+    body = Body.from_inertia(np.eye(3)) if tensor else Body([1, 1, 1])
+    path = Orbit(orbit[0], orbit[1], inclination=orbit[2])
+    partials = Scene(body, attitude, rates, orbit=path).solve().partials(time)
+    for axis in range(3):
+        ends = [euler(1 + sign * step * np.eye(3)[axis], attitude, rates, orbit, time) for sign in (-1, 1)]
+        turned = (ends[0][0].inv() * ends[1][0]).as_rotvec() / (2 * step)
+        faster = (ends[1][1] - ends[0][1]) / (2 * step)
+        np.testing.assert_allclose(partials.attitude[:, 6 + axis], turned, atol=1e-5)
+        np.testing.assert_allclose(partials.angular_velocity[:, 6 + axis], faster, atol=1e-5)
+
+
+def test_no_orbit_turns_a_sphere_and_its_columns_are_in_their_places():
+    bodies = [Orbit(0.01, 0.1), Orbit(0.02, 1.4)]
+    motion = Scene(Body([1, 1, 1]), *STATE, orbit=bodies, span=(0, 100)).solve()
+    free = Scene(Body([1, 1, 1]), *STATE).solve().partials([1.0, 10.0])
+    chosen = [("orbit", 1), "angular_velocity", ("attraction", 0), "attitude"]
+    partials = motion.partials([1.0, 10.0], with_respect_to=chosen)
+    assert partials.attitude.shape == (2, 3, 13)
+    for found, own in ((partials.attitude, free.attitude), (partials.angular_velocity, free.angular_velocity)):
+        assert (found[..., :6] == 0).all() and (found[..., 9] == 0).all()
+        np.testing.assert_array_equal(found[..., 6:9], own[..., 3:6])
+        np.testing.assert_array_equal(found[..., 10:], own[..., :3])

@@ -11,9 +11,19 @@ use crate::integration::columns::{ForcedColumn, PartialsRows};
 use crate::integration::variation;
 use crate::motion::batch::Batch;
 use crate::motion::solved::Motion;
+use crate::motion::trajectory::Trajectory;
 
 /// Beyond so many steps the derivatives of an averaged motion are differences of solved motions: four for each column, 8 ms for nine columns over 1,000 rotations.
 const MOST_STEPS: f64 = 2.5e3;
+
+impl Motion {
+    /// Whether these derivatives need the variational equations with torques: those of a motion under torques, and those of a sphere with respect to its moments
+    /// where a body attracts it. No torque acts on the sphere, but one acts on a body beside it.
+    pub(super) fn varies_under_torques(&self, parameters: &[Parameter]) -> bool {
+        let attracted = !self.scene.asked_disturbing().is_empty();
+        matches!(self.trajectory, Trajectory::Forced(_)) || attracted && parameters.contains(&Parameter::Moments)
+    }
+}
 
 impl Batch<'_> {
     /// The derivatives of a motion under torques with respect to chosen parameters, (n, 3, columns).

@@ -190,7 +190,7 @@ impl Batch<'_> {
         rates: &mut [Derivatives],
     ) -> Result<(), Error> {
         #[cfg(feature = "torques")]
-        if let Trajectory::Forced(_) = self.motion().trajectory {
+        if self.motion().varies_under_torques(&Parameter::STATE_AND_BODY) {
             return self.forced_matrices(times, attitudes, rates);
         }
         let part = |times: &[f64], attitudes: &mut [_], rates: &mut [_]| {
@@ -210,7 +210,7 @@ impl Batch<'_> {
         rates: &mut [Derivatives<INERTIA_PARAMETERS>],
     ) -> Result<(), Error> {
         #[cfg(feature = "torques")]
-        if let Trajectory::Forced(_) = self.motion().trajectory {
+        if self.motion().varies_under_torques(&Parameter::STATE_AND_BODY) {
             return self.forced_matrices(times, attitudes, rates);
         }
         let part = |times: &[f64], attitudes: &mut [_], rates: &mut [_]| {

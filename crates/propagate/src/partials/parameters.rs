@@ -4,8 +4,6 @@ use super::derivatives::{Derivatives, INERTIA_PARAMETERS, PARAMETERS};
 use crate::error::Error;
 use crate::motion::batch::Batch;
 use crate::motion::solved::{Motion, length};
-#[cfg(feature = "torques")]
-use crate::motion::trajectory::Trajectory;
 use crate::orbit::disturbing_body::DisturbingBody;
 
 /// The elements of an orbit, in the order of the columns.
@@ -143,7 +141,7 @@ impl Batch<'_> {
         length("attitudes", attitudes.len(), 3 * columns * times.len())?;
         length("rates", rates.len(), 3 * columns * times.len())?;
         #[cfg(feature = "torques")]
-        if let Trajectory::Forced(_) = self.motion().trajectory {
+        if self.motion().varies_under_torques(parameters) {
             return self.forced(parameters, times, [attitudes, rates]);
         }
         if self.motion().scene().body().has_tensor() {
@@ -173,23 +171,23 @@ impl Batch<'_> {
     }
 }
 
-/// Copies the columns of state and body.
+/// Copies the columns of state and body. Those of an orbit are 0: a free motion under a disturbing body is that of a sphere, and no orbit turns a sphere.
 fn select<const N: usize>(parameters: &[Parameter], all: &[Vec<Derivatives<N>>; 2], outputs: [&mut [f64]; 2]) {
-    let columns: Vec<usize> = parameters
+    let columns: Vec<Option<usize>> = parameters
         .iter()
         .flat_map(|parameter| match parameter {
-            Parameter::Attitude => 0..3,
-            Parameter::AngularVelocity => 3..6,
-            Parameter::Moments => 6..N,
-            // A scene with a disturbing body is no free motion.
-            Parameter::Orbit(_) | Parameter::Attraction(_) => 0..0,
+            Parameter::Attitude => (0..3).map(Some).collect(),
+            Parameter::AngularVelocity => (3..6).map(Some).collect(),
+            Parameter::Moments => (6..N).map(Some).collect(),
+            Parameter::Orbit(_) => vec![None; ELEMENTS.len()],
+            Parameter::Attraction(_) => vec![None],
         })
         .collect();
     for (all, output) in all.iter().zip(outputs) {
         let rows = all.iter().flatten();
         for (row, chosen) in rows.zip(output.chunks_mut(columns.len().max(1))) {
             for (value, column) in chosen.iter_mut().zip(&columns) {
-                *value = row[*column];
+                *value = column.map_or(0.0, |column| row[column]);
             }
         }
     }
