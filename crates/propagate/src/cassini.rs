@@ -59,7 +59,7 @@ pub struct CassiniState {
 /// less than the largest rate of a libration, √(3 (G m/a³) (B − A)/C |G_p|), at the obliquity 0. At the obliquity θ the resonance is narrower by (1 + cos θ)/2.
 ///
 /// # Errors
-/// - [`Error::Orbit`] for a node rate of 0, and for a hyperbola.
+/// - [`Error::Orbit`] for a node rate of 0, for a hyperbola, and for an attraction that is no normal double.
 /// - [`Error::Positive`] for a spin rate of 0, −1, NaN or infinite.
 ///
 /// ```
@@ -84,6 +84,7 @@ pub fn cassini_states(body: &Body, orbit: &Orbit, spin_rate: f64) -> Result<Vec<
         let bound = "less than 1: a hyperbola has no mean torque";
         return Err(Error::Orbit { argument: "eccentricity", value: orbit.eccentricity(), bound });
     }
+    orbit.representable()?;
     let top = Top::new(body, orbit, spin_rate);
     let extremes = roots(&evenly(), |theta| top.curvatures(theta)[0]);
     let places = if extremes.is_empty() { evenly() } else { extremes };

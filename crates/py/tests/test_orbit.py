@@ -10,7 +10,7 @@ from conftest import REPOSITORY
 from gravity_gradient import GravityGradient
 
 import andoyer
-from andoyer import Body, Orbit, Scene
+from andoyer import Body, InputError, Orbit, Scene
 
 NAN, INF = math.nan, math.inf
 ELEMENTS = ["mean_motion", "eccentricity", "time_of_pericentre", "inclination", "node", "argument_of_pericentre", "mass_fraction"]
@@ -174,3 +174,25 @@ def test_andoyer_angles_give_the_attitude_back_under_a_torque(scene):
     found = (Rotation.from_euler("ZXZ", angles) * Rotation.from_euler("XZ", tilt)).as_quat()
     # The arccosine of N/M loses half the digits at J = 0.02.
     assert angle(found, motion.attitude(times)).max() < 1e-13
+
+
+@pytest.mark.parametrize(
+    ("elements", "argument"),
+    [
+        ({"mean_motion": 5e-324}, "mean_motion"),
+        ({"mean_motion": 1e-300}, "mean_motion"),
+        ({"mean_motion": 1e200}, "mean_motion"),
+        ({"mean_motion": 0.1, "mass_fraction": 5e-324}, "mass_fraction"),
+        ({"mean_motion": 1e-150, "mass_fraction": 1e-20}, "mass_fraction"),
+        ({"mean_motion": 1e-200, "attraction": 1e-6}, "attraction"),
+        ({"mean_motion": 1e100, "attraction": 1e-200}, "attraction"),
+        ({"mean_motion": 0.1, "attraction": 1e308}, "attraction"),
+    ],
+)
+@pytest.mark.parametrize("method", ["auto", "integrated"])
+def test_a_torque_that_no_double_holds_is_refused_by_name(elements, argument, method):
+    orbit = Orbit(eccentricity=0.1, **elements)
+    scene = Scene(Body([0.5, 0.75, 1.0]), [0, 0, 0, 1], [0.2, 0.3, 1.1], orbit=orbit, span=(0, 20), method=method)
+    with pytest.raises(InputError, match=f"orbit.{argument} = .* normal doubles") as caught:
+        scene.solve()
+    assert caught.value.argument == f"orbit.{argument}"

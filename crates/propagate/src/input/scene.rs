@@ -246,6 +246,7 @@ impl Scene {
     /// - [`Error::Order`] for 61.
     /// - [`Error::Span`] for (1, 0), or for times that are not finite.
     /// - [`Error::Torque`] for a torque that is not finite.
+    /// - [`Error::Orbit`] for the orbit of a disturbing body whose attraction, or attraction over n², is no normal double: a mean motion of 1e-300.
     /// - [`Error::Epoch`], [`Error::Attitude`], [`Error::AngularVelocity`] for an invalid state: see [`State::new`].
     pub fn validate(&self) -> Result<(), Error> {
         self.validated().map(|_| ())
@@ -263,7 +264,7 @@ impl Scene {
         Ok(self)
     }
 
-    /// Whether tolerance, order, span and torques are valid.
+    /// Whether tolerance, order, span, disturbing bodies and torques are valid.
     pub(crate) fn validate_options(&self) -> Result<(), Error> {
         if !(self.tolerance.is_finite() && self.tolerance > 0.0) {
             return Err(Error::Tolerance { value: self.tolerance });
@@ -276,6 +277,7 @@ impl Scene {
         {
             return Err(Error::Span { start, stop });
         }
+        self.disturbing.iter().try_for_each(DisturbingBody::validate)?;
         self.torques.iter().try_for_each(Torque::validate)
     }
 }

@@ -23,10 +23,12 @@ use super::expansion::{Equations, Workspace};
 use super::integrated::Problem;
 use super::integrator::{AT_ONCE, MOST_STEPS, Precision, Runner, affordable, next_end};
 use super::linear::Linear;
+use super::path_series::PathSeries;
 use super::torques::Torques;
 use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::numerics::scaling::scaled;
+use crate::orbit::disturbing_body::DisturbingBody;
 use crate::simd::halt::going;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 
@@ -49,6 +51,9 @@ pub(crate) fn fill(
     let mut problem = Problem::new(scene, "")?;
     let exponent = problem.exponent;
     problem.equations.torques = Torques::new(scene, exponent, true).map(std::sync::Arc::new);
+    for column in columns {
+        attraction_held(&problem.equations, scene, column)?;
+    }
     let epoch = scene.state().epoch;
     let since = |(index, time): (usize, &f64)| {
         let (high, low) = two_sum(*time, -epoch);
@@ -73,6 +78,21 @@ pub(crate) fn fill(
         dispatch(Arch::new(), variation)?;
     }
     Ok(())
+}
+
+/// Whether doubles hold a torque in the unit of the integration, if it is to be divided by its attraction.
+fn attraction_held(equations: &Equations<4>, scene: &Scene, column: &ForcedColumn) -> Result<(), Error> {
+    let ForcedColumn::Attraction(body) = *column else { return Ok(()) };
+    let (PathSeries::Conic(conic), DisturbingBody::Orbit(orbit)) =
+        (&equations.bodies[body], &scene.asked_disturbing()[body])
+    else {
+        return Ok(());
+    };
+    if (conic.strength * conic.strength).is_normal() {
+        return Ok(());
+    }
+    let bound = "at least 1e-307 of the square of the fastest rate, for derivatives with respect to it";
+    Err(Error::Orbit { argument: "attraction", value: orbit.strength(), bound })
 }
 
 /// The derivatives at times in one direction from the epoch, the nearest first.

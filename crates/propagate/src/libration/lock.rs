@@ -65,7 +65,7 @@ impl Lock {
             Err(format!("{spin:.3} rotations an orbit are near no resonance from 1/2 to {}", MOST_IN_TWO / 2))
         };
         // In the middle of a swing a body can be nearer to the rate of the next resonance than to its own. |X| ≤ (1 − e)⁻³ bounds ω_ψ, and a pendulum swings no faster than ω_ψ.
-        let kappa = orbit.strength() / orbit.mean_motion().powi(2);
+        let kappa = orbit.disturbing_fraction();
         let fastest = 3.0 * kappa * (b - a) / c / (1.0 - orbit.eccentricity()).powi(3);
         for twice in [nearest.saturating_sub(1), nearest.saturating_add(1)] {
             if orders.contains(&twice)
@@ -93,7 +93,7 @@ impl Lock {
         twice: i32,
     ) -> Result<Self, String> {
         let precession = PlaneMotion { phase_rate: 0.0, spin: 0.0, sideways: 0.0, obliquity: 0.0, argument: None };
-        let attraction = orbit.strength() / orbit.mean_motion().powi(2);
+        let attraction = orbit.disturbing_fraction();
         let eccentricity = orbit.eccentricity();
         let [_, resonant, _] = hansen(eccentricity, twice.unsigned_abs() as usize);
         let mut shape = LockedShape { moments, eccentricity, attraction, twice, resonant, precession };

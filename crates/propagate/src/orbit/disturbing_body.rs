@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::elements::Orbit;
 use super::table::TabulatedOrbit;
+use crate::error::Error;
 
 /// A disturbing body.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +14,16 @@ pub enum DisturbingBody {
     Orbit(Orbit),
     /// A body with a table of positions.
     Tabulated(Arc<TabulatedOrbit>),
+}
+
+impl DisturbingBody {
+    /// Whether doubles hold the torque that it exerts.
+    pub(crate) fn validate(&self) -> Result<(), Error> {
+        match self {
+            Self::Orbit(orbit) => orbit.representable(),
+            Self::Tabulated(table) => table.representable(),
+        }
+    }
 }
 
 impl From<Orbit> for DisturbingBody {

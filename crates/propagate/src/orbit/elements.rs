@@ -21,7 +21,10 @@ pub(super) const MOST_TURNS: f64 = TAU * 1e15;
 /// Largest semi-major axis. No position on its orbit overflows.
 const LONGEST: f64 = 1e300;
 
-const POSITIVE: &str = "positive and finite";
+pub(super) const POSITIVE: &str = "positive and finite";
+/// The bound in words of what scales the torque of a body on an orbit.
+const REPRESENTABLE: &str =
+    "such that the attraction, mean_motion^2 * mass_fraction unless given, and its quotient by mean_motion^2 are normal doubles";
 
 /// Largest eccentricity. Powers of the distance do not overflow.
 const MOST_ECCENTRIC: f64 = 1e50;
@@ -388,6 +391,17 @@ impl Orbit {
     /// The largest rate of an angle of the orbit [rad per unit of time].
     pub(crate) fn fastest(&self) -> f64 {
         self.mean_motion.max(self.node_rate.abs()).max(self.pericentre_rate.abs())
+    }
+
+    /// Checks that three times the attraction G m/a³, and the attraction over n², are normal doubles: equations of motion have both.
+    pub(crate) fn representable(&self) -> Result<(), Error> {
+        let holds = [self.strength(), 3.0 * self.strength(), self.disturbing_fraction()].iter().all(|x| x.is_normal());
+        let (argument, value) = match self.attraction {
+            Some(attraction) => ("attraction", attraction),
+            None if (self.mean_motion * self.mean_motion).is_normal() => ("mass_fraction", self.mass_fraction),
+            None => ("mean_motion", self.mean_motion),
+        };
+        check(argument, value, holds, REPRESENTABLE)
     }
 
     /// Checks that the mean anomaly can be computed at an epoch.

@@ -6,6 +6,7 @@
 
 use nalgebra::Vector3;
 
+use super::elements::{POSITIVE, check};
 use crate::error::Error;
 
 /// Number of times through whose positions a polynomial passes.
@@ -60,9 +61,7 @@ impl TabulatedOrbit {
                 return refused("positions", index, 0.0, "away from the origin");
             }
         }
-        if !(gm > 0.0 && gm.is_finite()) {
-            return Err(Error::Orbit { argument: "gm", value: gm, bound: "positive and finite" });
-        }
+        check("gm", gm, gm > 0.0 && gm.is_finite(), POSITIVE)?;
         Ok(Self { times, positions, gm })
     }
 
@@ -154,6 +153,16 @@ impl TabulatedOrbit {
         let intervals = self.interval(start)..=self.interval(stop);
         let intervals = intervals.map(|interval| (interval, departure(interval)));
         intervals.max_by(|one, other| one.1.total_cmp(&other.1)).unwrap_or((0, 0.0))
+    }
+
+    /// Checks that three times G m/r³ is a normal double at each position.
+    pub(crate) fn representable(&self) -> Result<(), Error> {
+        let attraction = |[x, y, z]: &[f64; 3]| {
+            let distance = x.hypot(*y).hypot(*z);
+            3.0 * (self.gm / distance / distance / distance)
+        };
+        let holds = self.positions.iter().all(|position| attraction(position).is_normal());
+        check("gm", self.gm, holds, "such that its quotient by the cube of each distance is a normal double")
     }
 
     /// The first and the last time of the table.
