@@ -1,11 +1,11 @@
-//! Values of other packages: quantities and times of astropy, rotations of SciPy.
+//! Values of other packages: quantities and times of astropy, rotations of SciPy, quaternions.
 //!
-//! This module imports none of these packages. It passes a value that looks like one of theirs to `andoyer.interop._foreign`. Lists, tuples, floats and plain arrays,
+//! This module imports none of these packages. It passes a value that looks like one of theirs to `andoyer.interop._foreign`, or an attitude to `andoyer.interop._attitudes`. Lists, tuples, floats and plain arrays,
 //! the usual arguments, are recognized by their type.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use numpy::{PyArrayDyn, PyUntypedArray};
+use numpy::{PyArrayDescrMethods, PyArrayDyn, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::intern;
 use pyo3::prelude::*;
@@ -32,7 +32,7 @@ pub(crate) fn plain<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<
 }
 
 fn looks_foreign(value: &Bound<'_, PyAny>) -> PyResult<bool> {
-    Ok(has_units(value)? || is_time(value)? || is_rotation(value)?)
+    Ok(has_units(value)? || is_time(value)?)
 }
 
 /// True for a quantity of astropy, pint, unyt or another package.
@@ -184,9 +184,23 @@ pub(crate) fn date(argument: &str, value: &Bound<'_, PyAny>) -> Option<PyErr> {
     })
 }
 
-/// True if `value` is a rotation, to which the option `scalar_first` does not apply.
-pub(crate) fn is_rotation(value: &Bound<'_, PyAny>) -> PyResult<bool> {
-    value.hasattr(intern!(value.py(), "as_quat"))
+/// The numbers of attitudes, and whether they are [w, x, y, z]: as `scalar_first` says for plain numbers, never for rotations of SciPy and for values of other
+/// packages that name their components.
+pub(crate) fn attitudes<'py>(
+    argument: &str,
+    value: &Bound<'py, PyAny>,
+    scalar_first: bool,
+) -> PyResult<(Bound<'py, PyAny>, bool)> {
+    let list = value.is_exact_instance_of::<PyList>() || value.is_exact_instance_of::<PyTuple>();
+    let array = value.is_exact_instance_of::<PyUntypedArray>()
+        && value.cast::<PyUntypedArray>().is_ok_and(|array| matches!(array.dtype().kind(), b'i' | b'u' | b'f'));
+    if array || (list && first_of(value)?.is_none()) {
+        return Ok((value.clone(), scalar_first));
+    }
+    let py = value.py();
+    let quaternions = py.import(intern!(py, "andoyer.interop._attitudes"))?.getattr(intern!(py, "quaternions"))?;
+    let (numbers, known): (Bound<'py, PyAny>, bool) = quaternions.call1((argument, value))?.extract()?;
+    Ok((numbers, scalar_first && !known))
 }
 
 /// [x, y, z, w] from [w, x, y, z], if `scalar_first` is set.

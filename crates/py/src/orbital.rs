@@ -90,7 +90,8 @@ impl Scene {
         let rates = array::fixed("angular_velocity", angular_velocity)?;
         // A quaternion has no unit; three angles may have one.
         let argument = if foreign::holds_units(attitude)? { "angles" } else { "attitude" };
-        let turn = match &array::numbers_of(argument, attitude)?[..] {
+        let (attitude, scalar_first) = foreign::attitudes("attitude", attitude, scalar_first)?;
+        let turn = match &array::numbers_of(argument, &attitude)?[..] {
             &[first, second, third] => {
                 if let Some(index) = [first, second, third].iter().position(|angle| !angle.is_finite()) {
                     let value = [first, second, third][index];
@@ -105,7 +106,7 @@ impl Scene {
             }
             &[x, y, z, w] => {
                 let mut quaternion = [x, y, z, w];
-                foreign::scalar_last(&mut quaternion, scalar_first && !foreign::is_rotation(attitude)?);
+                foreign::scalar_last(&mut quaternion, scalar_first);
                 State::new(time, quaternion, rates).map_err(error::propagation)?.attitude
             }
             other => return Err(error::shape("attitude", &[other.len()], "(4,) or (3,)")),

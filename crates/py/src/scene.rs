@@ -59,8 +59,8 @@ impl Scene {
         scalar_first: bool,
     ) -> PyResult<Self> {
         let body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get();
-        let scalar_first = scalar_first && !foreign::is_rotation(attitude)?;
-        let mut attitude = array::fixed("attitude", attitude)?;
+        let (attitude, scalar_first) = foreign::attitudes("attitude", attitude, scalar_first)?;
+        let mut attitude = array::fixed("attitude", &attitude)?;
         foreign::scalar_last(&mut attitude, scalar_first);
         let angular_velocity = array::fixed("angular_velocity", angular_velocity)?;
         let (epoch, calendar) = self::epoch(epoch)?;

@@ -15,14 +15,14 @@ use crate::foreign::Calendar;
 /// ----------
 /// body : Body
 ///     The rotating body.
-/// attitude : array_like, shape (4,), or scipy.spatial.transform.Rotation
+/// attitude : array_like, shape (4,), scipy.spatial.transform.Rotation, or a quaternion of another package
 ///     Unit quaternion [x, y, z, w], scalar last (Hamilton product), that rotates body components into inertial ones. Its norm must be within 1e-6
-///     of 1; the quaternion is then normalized.
+///     of 1; the quaternion is then normalized. A value that names its components x, y, z, w is read by these names, whatever the order in its memory.
 /// angular_velocity : array_like, shape (3,)
 ///     Body components, in rad per unit of time; zeros mean a body at rest. Every function converts a Quantity of astropy to SI units, and a Time to
 ///     TDB seconds since J2000.
 /// scalar_first : bool, optional
-///     If True, the argument `attitude` is [w, x, y, z]. The property `attitude` is always [x, y, z, w].
+///     If True, the numbers of `attitude` are [w, x, y, z]. The property `attitude` is always [x, y, z, w].
 /// epoch : float or astropy.time.Time, optional
 ///     Time of the state. The two doubles of a Time are kept, with its time scale. The times of the motion may then be Time objects, and numbers are seconds since J2000.
 /// orbit : Orbit or TabulatedOrbit, or a sequence of them, optional
@@ -65,7 +65,7 @@ use crate::foreign::Calendar;
 /// RepresentationError
 ///     An order above 60.
 /// TypeError
-///     A body that is not a `Body`, an orbit that is not an `Orbit`, a tolerance or an epoch that is a text, an order that is a boolean.
+///     A quaternion of a class that does not name its components x, y, z, w; a body that is not a `Body`, an orbit that is not an `Orbit`, a tolerance or an epoch that is a text, an order that is a boolean.
 ///
 /// Examples
 /// --------

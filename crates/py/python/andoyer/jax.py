@@ -14,6 +14,7 @@ import numpy as np
 from andoyer._core import Body, Ensemble, InputError, Motion, RepresentationError, Scene, TheoryError
 from andoyer._extra import extra
 from andoyer._quaternions import Array
+from andoyer.interop._attitudes import quaternions
 
 jax: Any = extra("jax", "andoyer.jax")
 jnp: Any = extra("jax.numpy", "andoyer.jax")
@@ -138,7 +139,7 @@ def state(moments: Any, attitude: Any, angular_velocity: Any, times: Any) -> tup
     """
     if jnp.result_type(float) != np.float64:
         raise RepresentationError('andoyer.jax needs 64-bit numbers: call jax.config.update("jax_enable_x64", True) first')
-    given = {"moments": moments, "attitude": attitude, "angular_velocity": angular_velocity}
+    given = {"moments": moments, "attitude": quaternions("attitude", attitude)[0], "angular_velocity": angular_velocity}
     vectors = [_numbers(argument, value) for argument, value in given.items()]
     at = _numbers("times", times)
     for vector, (argument, length) in zip(vectors, ROWS.items(), strict=True):

@@ -20,6 +20,14 @@ pub(super) fn output<'py>(out: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<
     let Ok(array) = out.cast::<PyUntypedArray>() else {
         return Err(PyTypeError::new_err(format!("out must be a NumPy array, not {}", out.get_type().name()?)));
     };
+    // The class of another package may hold quaternions with the scalar first.
+    let module = out.get_type().module()?.to_string();
+    if !(out.is_exact_instance_of::<PyUntypedArray>() || module == "numpy" || module.starts_with("numpy.")) {
+        let kind = out.get_type().name()?;
+        return Err(PyTypeError::new_err(format!(
+            "out must be an array of NumPy's own classes, not a {kind} of {module}"
+        )));
+    }
     if !array.dtype().is_equiv_to(&f64::get_dtype(out.py())) {
         return Err(PyTypeError::new_err(format!("out has dtype {}: it must be float64", array.dtype())));
     }

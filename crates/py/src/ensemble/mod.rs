@@ -62,8 +62,8 @@ impl Ensemble {
         scalar_first: bool,
     ) -> PyResult<Self> {
         let bodies = Bodies::new(moments)?;
-        let scalar_first = scalar_first && !foreign::is_rotation(attitudes)?;
-        let mut attitudes = MemberRows::new("attitudes", attitudes)?;
+        let (attitudes, scalar_first) = foreign::attitudes("attitudes", attitudes, scalar_first)?;
+        let mut attitudes = MemberRows::new("attitudes", &attitudes)?;
         attitudes.each(|quaternion| foreign::scalar_last(quaternion, scalar_first));
         let rates = MemberRows::new("angular_velocities", angular_velocities)?;
         let threads = threads.map(|value| whole_number("threads", value, 1, MAX_THREADS, Kind::Input)).transpose()?;

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from andoyer._core import Scene
 from andoyer._quaternions import Array
 from andoyer._refusal import refusal
+from andoyer.interop import _attitudes
 from andoyer.interop._foreign import as_one, epoch_of, parts, plain, since
 
 LARGEST = 1e40
@@ -106,8 +107,8 @@ def positive(argument: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Array
 
 
 def quaternions(argument: str, value: Any, count: int) -> Array:
-    """Unit quaternions [x, y, z, w], shape (count, 4), from numbers or rotations of SciPy."""
-    array = shaped(argument, value.as_quat() if hasattr(value, "as_quat") else value, (count, 4))
+    """Unit quaternions [x, y, z, w], shape (count, 4), from numbers, rotations of SciPy or quaternions of another package."""
+    array = shaped(argument, _attitudes.quaternions(argument, value)[0], (count, 4))
     norms = np.linalg.norm(array, axis=1)
     worst = int(np.argmax(np.abs(norms - 1))) if count else 0
     if count and abs(norms[worst] - 1) > NEAR_UNIT:

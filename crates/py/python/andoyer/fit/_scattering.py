@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike
 from andoyer._quaternions import Array, conjugate, rotate
 from andoyer._refusal import refusal
 from andoyer.fit._given import moderate, numbers, quaternions
+from andoyer.interop import _attitudes
 
 TINY = 1e-300
 
@@ -117,7 +118,7 @@ def brightness(axes: ArrayLike, attitudes: ArrayLike, sun: ArrayLike, observer: 
     semi_axes = axes_of(axes)
     to_sun, to_observer = directions(sun, observer)
     formula = law(scattering)
-    given = numbers("attitudes", attitudes)
+    given = numbers("attitudes", _attitudes.quaternions("attitudes", attitudes)[0])
     if given.shape[-1:] != (4,):
         raise refusal("attitudes", given.shape, "(…, 4)", f"has shape {given.shape}: it must be (…, 4)")
     turn = conjugate(quaternions("attitudes", given.reshape(-1, 4), given.size // 4).reshape(given.shape))

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from andoyer._core import Motion, Samples
 from andoyer._refusal import refusal
+from andoyer.interop import _attitudes
 from andoyer.interop._foreign import plain
 
 Array: TypeAlias = NDArray[np.float64]
@@ -32,8 +33,9 @@ def rows(samples: Samples) -> Array:
     times = plain("times", samples.times)
     if samples.times.ndim > 1 or samples.attitude.ndim > samples.times.ndim + 1:
         raise refusal("samples", repr(samples), "one motion", f"must be of one motion: got {samples!r}; a file holds one member of an ensemble")
-    attitude = np.atleast_2d(samples.attitude)
-    if samples.scalar_first:
+    quaternions, known = _attitudes.quaternions("samples.attitude", samples.attitude)
+    attitude = np.atleast_2d(quaternions)
+    if samples.scalar_first and not known:
         attitude = np.roll(attitude, -1, axis=1)
     return np.column_stack([np.atleast_1d(times), attitude, np.atleast_2d(samples.angular_velocity)])
 
