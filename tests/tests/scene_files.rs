@@ -1,6 +1,8 @@
 //! Scene files: what is read back, and what is refused with file, key and bound.
 
+use andoyer_propagate::disturbers::TabulatedOrbit;
 use andoyer_propagate::options::{Averaging, Level};
+use andoyer_propagate::torques::{SourcePath, Torque, TorqueSource};
 use andoyer_propagate::{Error, Orbit, Scene};
 
 const GOOD: &str = "name = \"A body\"
@@ -192,4 +194,37 @@ fn an_attraction_stands_without_a_mass_fraction() {
     assert_eq!(orbit.mass_fraction(1.0), Ok(orbit));
     let error = orbit.mass_fraction(0.5).expect_err("both");
     assert_eq!(error.argument(), Some("mass_fraction"));
+}
+
+#[test]
+fn a_source_with_a_unit_of_length_needs_a_reference_distance() -> Result<(), Error> {
+    let bare = Orbit::new(1.0, 0.1)?;
+    let table = TabulatedOrbit::new((0..8).map(f64::from).collect(), vec![[7e6, 0.0, 0.0]; 8], 1.0)?;
+    let torque = |path: &SourcePath, power: f64, distance: Option<f64>| {
+        let source = TorqueSource::new("a", path.clone()).falling(power, distance);
+        Torque::polynomial(["a1", "0", "0"], vec![source])
+    };
+    let hyperbola = Orbit::new(1.0, 1.5)?.semi_major_axis(7e6)?;
+    for path in [
+        SourcePath::Orbit(bare.semi_major_axis(1.0)?),
+        SourcePath::Orbit(hyperbola),
+        SourcePath::Tabulated(table.into()),
+    ] {
+        let refused = torque(&path, -2.0, None);
+        assert!(matches!(refused, Err(Error::Torque { argument: "reference_distances", .. })), "{refused:?}");
+        assert!(torque(&path, -2.0, Some(7e6)).is_ok() && torque(&path, 0.0, None).is_ok());
+    }
+    // Semi-major axes are the unit of an orbit that has no other.
+    let path = SourcePath::Orbit(bare);
+    assert_eq!(torque(&path, 3.0, None)?, torque(&path, 3.0, Some(1.0))?);
+    let file = |keys: &str| {
+        let head = "span = [0.0, 1.0]\n[body]\nmoments = [1.0, 1.5, 2.0]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 1]\n[[torque]]";
+        let source = format!("polynomial = [\"b1\", \"0\", \"0\"]\n[[torque.source]]\nname = \"b\"\npower = 3\n{keys}");
+        Scene::parse_toml(&format!("{head}\n{source}"), "dipole.toml").map_err(|error| error.to_string())
+    };
+    assert!(file("orbit = { mean_motion = 1.0 }").is_ok());
+    assert!(file("reference_distance = 7e6\norbit = { mean_motion = 1.0, semi_major_axis = 7e6 }").is_ok());
+    let refused = file("orbit = { mean_motion = 1.0, semi_major_axis = 7e6 }").expect_err("no distance");
+    assert!(refused.contains("reference_distances = b: none: it must be given"), "{refused}");
+    Ok(())
 }

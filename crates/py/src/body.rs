@@ -65,7 +65,7 @@ impl Body {
             );
             return Err(PyTypeError::new_err(hint));
         }
-        if array::is_matrix(moments) {
+        if array::is_matrix("moments", moments) {
             let hint =
                 "moments has shape (3, 3): it must be (3,); a body of an inertia tensor is Body.from_inertia(tensor)";
             return Err(error::input("moments", &[3_i64, 3][..], "(3,)", hint.to_owned()));

@@ -14,7 +14,7 @@ use crate::values::immutable;
 
 /// A torque beside the gravity gradient, in body axes. It is made by one of the class methods below. A scene with torques is integrated: it needs a span.
 ///
-/// Torques are in moment × rate². `Motion.angular_momentum` and `Motion.andoyer` include the angular momentum of rotors.
+/// Torques are in moment × rate²; a Quantity is converted to SI units, with rates in rad/s. `Motion.angular_momentum` and `Motion.andoyer` include the angular momentum of rotors.
 ///
 /// Examples
 /// --------
@@ -60,7 +60,7 @@ impl Torque {
     #[classmethod]
     fn damping(_class: &Bound<'_, PyType>, damping: &Bound<'_, PyAny>) -> PyResult<Self> {
         let diagonal = |d: [f64; 3]| std::array::from_fn(|i| std::array::from_fn(|k| if i == k { d[i] } else { 0.0 }));
-        made(Inner::damping(if is_matrix(damping) {
+        made(Inner::damping(if is_matrix("damping", damping) {
             matrix("damping", damping)?
         } else if damping.len().is_ok() {
             diagonal(fixed("damping", damping)?)
@@ -98,12 +98,13 @@ impl Torque {
     /// distance_powers : dict of str to float, optional
     ///     The torque is multiplied by (r0/r)^p for each source with a power p.
     /// reference_distances : dict of str to float, optional
-    ///     r0, by default 1: in the unit of length of the source; for an `Orbit` without `semi_major_axis` in semi-major axes.
+    ///     r0. For an `Orbit` without `semi_major_axis` it is in semi-major axes, by default 1. Any other source with a power needs it, in its unit of length.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     A text that is no polynomial in these variables, a degree above 8, a name that is not made of letters and digits, a power for a direction.
+    ///     A text that is no polynomial in these variables, a degree above 8, a name that is not made of letters and digits, a power for a direction,
+    ///     a power without a reference distance for an `Orbit` with `semi_major_axis` or a `TabulatedOrbit`.
     /// TypeError
     ///     Texts that are not three; a power or a distance for a name that is no source.
     ///
@@ -149,12 +150,11 @@ impl Torque {
             }
         }
         let source = |(name, path): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<TorqueSource> {
-            let value = |given: &Bound<'_, PyDict>, argument: &str, default: f64| match given.get_item(&name)? {
-                Some(value) => number(argument, &value),
-                None => Ok(default),
+            let value = |given: &Bound<'_, PyDict>, argument: &str| {
+                given.get_item(&name)?.map(|value| number(argument, &value)).transpose()
             };
-            let power = value(distance_powers, "distance_powers", 0.0)?;
-            let distance = value(reference_distances, "reference_distances", 1.0)?;
+            let power = value(distance_powers, "distance_powers")?.unwrap_or(0.0);
+            let distance = value(reference_distances, "reference_distances")?;
             let name: String = name.extract()?;
             Ok(TorqueSource::new(&name, source_path(&path)?).falling(power, distance))
         };

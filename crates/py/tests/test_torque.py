@@ -157,6 +157,8 @@ def test_table_as_a_source_and_derivatives():
         (lambda: Torque.polynomial(["b1", "0", "0"]), "b1"),
         (lambda: Torque.polynomial(["0"] * 3, sources={"b": [0, 0, 0]}), "other than 0"),
         (lambda: Torque.polynomial(["0"] * 3, sources={"b": [0, 0, 1]}, distance_powers={"b": 2}), "no distance"),
+        (lambda: Torque.polynomial(["0"] * 3, sources={"b": Orbit(1.0, semi_major_axis=7e6)}, distance_powers={"b": 3}), "reference_distances = b: none"),
+        (lambda: Torque.polynomial(["0"] * 3, sources={"b": TABLE}, distance_powers={"b": -2}), "reference_distances = b: none"),
     ],
 )
 def test_bad_torques_are_input_errors(made, said):
@@ -178,6 +180,18 @@ def test_bad_torques_are_input_errors(made, said):
 def test_torques_of_another_type_are_type_errors(made):
     with pytest.raises(TypeError):
         made()
+
+
+@pytest.mark.parametrize("size", [6.878e6, 1.0, 3e-4])
+def test_distance_power_does_not_depend_on_the_unit_of_length(size):
+    def rates(reference=None, **axis):
+        source = Orbit(0.3, 0.2, inclination=0.7, **axis)
+        distances = {} if reference is None else {"reference_distances": {"b": reference}}
+        torque = Torque.polynomial(["0", "-0.02*b3", "0.02*b2"], sources={"b": source}, distance_powers={"b": 3}, **distances)
+        return scene(torque).solve().angular_velocity(20.0)
+
+    assert rates(1.3 * size, semi_major_axis=size) == pytest.approx(rates(1.3), abs=1e-9)
+    assert rates() == pytest.approx(rates(1.0), abs=0) and np.abs(rates() - scene(None, orbit=None).solve().angular_velocity(20.0)).max() > 1e-3
 
 
 def test_torque_needs_an_integration():

@@ -41,6 +41,44 @@ def test_elements_of_an_orbit_have_units():
     assert andoyer.Orbit(unyt.unyt_quantity(900, "degree/day")).mean_motion == pytest.approx(2.5 * A_DAY, rel=1e-14)
 
 
+MECHANICS = {
+    "astropy": lambda units: (units.Unit("kN m"), units.Unit("kg m2 deg / h"), units.Unit("N m s / deg"), units.km),
+    "pint": lambda units: (
+        1 * UNITS.kN * UNITS.m,
+        1 * UNITS.kg * UNITS.m**2 * UNITS.degree / UNITS.hour,
+        1 * UNITS.N * UNITS.m * UNITS.s / UNITS.degree,
+        1 * UNITS.km,
+    ),
+    "unyt": lambda units: tuple(unyt.unyt_quantity(1, text) for text in ("kN*m", "kg*m**2*degree/hr", "N*m*s/degree", "km")),
+}
+
+
+@pytest.mark.parametrize("made", MECHANICS.values(), ids=MECHANICS)
+def test_torques_have_units(made):
+    torque, momentum, damping, length = made(pytest.importorskip("astropy.units"))
+    degree = math.pi / 180
+    assert parts(andoyer.Torque.constant([2.0, 0.0, 0.5] * torque)) == pytest.approx([2000, 0, 500], rel=1e-14)
+    assert parts(andoyer.Torque.rotor([0.0, 0.0, 4.0] * momentum)) == pytest.approx([0, 0, 4 * degree / 3600], rel=1e-14)
+    for given in (3.0 * damping, [3.0, 3.0, 3.0] * damping, 3.0 * np.eye(3) * damping):
+        assert np.array(parts(andoyer.Torque.damping(given))) == pytest.approx(3 / degree * np.eye(3), rel=1e-14)
+    source = andoyer.Orbit(1e-3, semi_major_axis=7000 * length)
+    falling = {"sources": {"b": source}, "distance_powers": {"b": 3}}
+    made_of = andoyer.Torque.polynomial(["b1", "0", "0"], **falling, reference_distances={"b": 6900 * length})
+    assert made_of == andoyer.Torque.polynomial(["b1", "0", "0"], **falling, reference_distances={"b": 6.9e6})
+    for make in (andoyer.Torque.constant, andoyer.Torque.rotor):
+        with pytest.raises(TypeError, match="must be in kg"):
+            make([1.0, 0.0, 0.0] * length)
+    with pytest.raises(TypeError, match="damping must be in kg"):
+        andoyer.Torque.damping(1.0 * torque)
+    with pytest.raises(TypeError, match="reference_distances must be in m"):
+        andoyer.Torque.polynomial(["b1", "0", "0"], **falling, reference_distances={"b": 1.0 * torque})
+
+
+def parts(torque):
+    """The numbers of a torque."""
+    return eval(repr(torque), {"Torque": type("Torque", (), dict.fromkeys(("constant", "rotor", "damping"), staticmethod(lambda numbers: numbers)))})
+
+
 class Furlongs(float):
     """A number with a unit that no package here knows."""
 

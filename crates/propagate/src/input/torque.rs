@@ -60,7 +60,8 @@ pub struct TorqueSource {
     name: String,
     path: SourcePath,
     power: f64,
-    reference_distance: f64,
+    /// None if it is needed and was not given: `validate` refuses such a source.
+    reference_distance: Option<f64>,
 }
 
 /// Where a source is.
@@ -83,16 +84,26 @@ impl TorqueSource {
             SourcePath::Direction(vector) => SourcePath::Direction(vector.map(unsigned)),
             path => path,
         };
-        Self { name: name.to_owned(), path, power: 0.0, reference_distance: 1.0 }
+        Self { name: name.to_owned(), path, power: 0.0, reference_distance: Some(1.0) }
     }
 
-    /// Multiplies the torque by (r₀/r)^power. r₀ is in the unit of length of the source: of its semi-major axis if one is given, else in semi-major axes; or of its
-    /// table.
+    /// Multiplies the torque by (r₀/r)^power. For an orbit without a semi-major axis r₀ is in semi-major axes, by default 1. For an orbit with one, and for a table,
+    /// it is in their unit of length and has no default: [`Torque::polynomial`] refuses `None`.
     #[must_use]
-    pub fn falling(self, power: f64, reference_distance: f64) -> Self {
+    pub fn falling(self, power: f64, reference_distance: impl Into<Option<f64>>) -> Self {
+        let default = (!self.has_length()).then_some(1.0);
         // Without a power no distance counts.
-        let reference_distance = if power == 0.0 { 1.0 } else { reference_distance };
+        let reference_distance = if power == 0.0 { Some(1.0) } else { reference_distance.into().or(default) };
         Self { power, reference_distance, ..self }
+    }
+
+    /// True if its distances are in a unit of length of the user.
+    fn has_length(&self) -> bool {
+        match &self.path {
+            SourcePath::Orbit(orbit) => orbit.asked_semi_major_axis().is_some(),
+            SourcePath::Tabulated(_) => true,
+            SourcePath::Direction(_) => false,
+        }
     }
 
     /// The name.
@@ -107,7 +118,7 @@ impl TorqueSource {
 
     /// The power p of (r₀/r)^p, and r₀.
     pub fn distance_power(&self) -> (f64, f64) {
-        (self.power, self.reference_distance)
+        (self.power, self.reference_distance.unwrap_or(1.0))
     }
 
     fn validate(&self) -> Result<(), Error> {
@@ -124,6 +135,10 @@ impl TorqueSource {
         if !(power.is_finite() && power.abs() <= MOST_POWER) {
             return Err(refused("distance_powers", format!("{name}: {power}"), "finite and at most 100 in magnitude"));
         }
+        let Some(reference_distance) = reference_distance else {
+            let bound = "given, in the unit of length of semi_major_axis or of the table: the distance at which the texts have the torque";
+            return Err(refused("reference_distances", format!("{name}: none"), bound));
+        };
         if !(*reference_distance > 0.0 && reference_distance.is_finite()) {
             return Err(refused("reference_distances", format!("{name}: {reference_distance}"), "positive and finite"));
         }
@@ -175,7 +190,8 @@ impl Torque {
     /// ```
     ///
     /// # Errors
-    /// - [`Error::Torque`] for a name that is no identifier or stands twice, a power for a direction, a degree above 8, a component with more than eight variables.
+    /// - [`Error::Torque`] for a name that is no identifier or stands twice, a power for a direction, a power without a reference distance
+    ///   for an orbit with a semi-major axis or a table, a degree above 8, a component with more than eight variables.
     /// - [`Error::Series`] for a text that is no polynomial in these variables.
     pub fn polynomial(texts: [&str; 3], sources: Vec<TorqueSource>) -> Result<Self, Error> {
         for (k, source) in sources.iter().enumerate() {

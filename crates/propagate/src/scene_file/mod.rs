@@ -33,6 +33,7 @@
 //! # [[torque.source]]
 //! # name = "b"                     # with direction = [0, 0, 1], inertial, or [torque.source.orbit] as above
 //! # power = 3                      # with an orbit: the factor (reference_distance/r)^power
+//! # reference_distance = 7.0e6     # needed if the orbit has a semi_major_axis or is a table; else 1, in semi-major axes
 //! ```
 //!
 //! Any other key is an error. Numbers are written so that they are read back to the same bits.

@@ -119,7 +119,7 @@ impl SourceTable {
             }
         };
         let source = TorqueSource::new(&self.name, path);
-        Ok(source.falling(self.power.unwrap_or(0.0), self.reference_distance.unwrap_or(1.0)))
+        Ok(source.falling(self.power.unwrap_or(0.0), self.reference_distance))
     }
 }
 

@@ -243,8 +243,8 @@ pub(crate) fn two_or_three(argument: &str, value: &Bound<'_, PyAny>) -> PyResult
 }
 
 /// True if `value` is an array_like of shape (3, 3).
-pub(crate) fn is_matrix(value: &Bound<'_, PyAny>) -> bool {
-    numbers("moments", value).is_ok_and(|array| array.shape() == [3, 3])
+pub(crate) fn is_matrix(argument: &str, value: &Bound<'_, PyAny>) -> bool {
+    numbers(argument, value).is_ok_and(|array| array.shape() == [3, 3])
 }
 
 /// `value` as a 3 × 3 matrix, row by row.

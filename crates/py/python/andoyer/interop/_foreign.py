@@ -1,4 +1,4 @@
-"""Conversion of values of astropy, pint, unyt and SciPy to plain numbers. Quantities become SI units; times become TDB seconds since J2000 (2000-01-01T12:00:00 TDB).
+"""Conversion of values of astropy, pint and unyt to plain numbers. Quantities become SI units; times become TDB seconds since J2000 (2000-01-01T12:00:00 TDB).
 
 Times of a motion are differences from its epoch, formed in the two doubles of astropy, because seconds since J2000 in one double are accurate only to 1e-7 s.
 A duration from a calendar epoch is added to it by astropy: in the scale of the duration, or without one in the scale of the epoch (UTC: in TAI).
@@ -44,6 +44,10 @@ UNITS = {
     "velocity": "m / s",
     "moments": "kg m2",
     "tensor": "kg m2",
+    "torque": "kg m2 / s2",
+    "damping": "kg m2 / s",
+    "momentum": "kg m2 / s",
+    "reference_distances": "m",
     "tolerance": "rad",
     "inclination": "rad",
     "node": "rad",
@@ -51,6 +55,9 @@ UNITS = {
     "angles": "rad",
 }
 """Unit of each argument that has one. That of longitude and latitude is in `unit_of`."""
+
+RADIANS = {"attraction", "torque", "damping", "momentum"}
+"""Arguments with powers of a rate, whose radians are left out: kg m² rad/s for an angular momentum."""
 
 DURATIONS = {"periods", "precession", "rotation"}
 """Times that have no calendar date."""
@@ -66,15 +73,13 @@ DAY = 86400.0
 
 
 def plain(argument: str, value: Any) -> Any:
-    """The numbers in a quantity, a time or a rotation. Any other value is returned unchanged.
+    """The numbers in a quantity or a time. Any other value is returned unchanged.
 
     Raises
     ------
     TypeError
         A quantity with a wrong unit, for example metres for times; an array with a mask.
     """
-    if hasattr(value, "as_quat"):
-        return value.as_quat()
     value = joined(argument, value)
     unmasked(argument, value)
     units, time = sys.modules.get("astropy.units"), sys.modules.get("astropy.time")
@@ -88,8 +93,7 @@ def plain(argument: str, value: Any) -> Any:
         return value.jd1 * DAY + value.jd2 * DAY
     if units is not None and isinstance(value, units.Quantity):
         unit = unit_of(argument, value)
-        # The square of a mean motion in rad/s is in rad²/s².
-        angles = units.dimensionless_angles() if argument == "attraction" else []
+        angles = units.dimensionless_angles() if argument in RADIANS else []
         try:
             return value.to_value(unit, equivalencies=angles)
         except units.UnitConversionError:
@@ -121,6 +125,10 @@ def converted(argument: str, value: Any) -> Any:
                 return value.magnitude
             return value.to(unit.replace("cycle", "turn")).magnitude
         if package == "unyt":
+            if argument in RADIANS:
+                unyt = sys.modules["unyt"]
+                radians = float(value.units.dimensions.as_powers_dict()[unyt.dimensions.angle])
+                value = value / unyt.unyt_quantity(1.0, "rad") ** radians
             # unyt has no cycle.
             if argument == "phases" and value.units.is_dimensionless:
                 return value.to_value("dimensionless")
