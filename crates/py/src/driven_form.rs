@@ -230,7 +230,7 @@ impl DrivenNormalForm {
             .map_at(n, time, |state, time| self.form().at(&self.phases(time)).to_normal(state))
     }
 
-    /// Transforms new variables to states. Shapes and input errors are those of `to_normal`.
+    /// Transforms new variables to states. Shapes and errors are those of `to_normal`.
     ///
     /// Parameters
     /// ----------
@@ -273,9 +273,11 @@ impl DrivenNormalForm {
     /// ------
     /// InputError
     ///     An array of another length; a NaN; a negative action of a centre; a rate that overflows.
+    /// TheoryError
+    ///     Actions whose states at time 0 are beyond the range of the series.
     fn frequency_map<'py>(&self, actions: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
         let n = self.space().degrees_of_freedom();
-        Rows::new("actions", actions, n)?.map(n, |actions| self.form().frequencies(actions))
+        Rows::new("actions", actions, n)?.map(n, |actions| self.form().frequency_map(actions, &self.phases(0.0)))
     }
 
     /// Propagates a state by the normal form to times after it.

@@ -151,11 +151,11 @@ crate::error_table! {
             steps: usize = "The number of steps.",
         } => Theory, facts("driven", *miss, "convergence");
 
-        /// A state that is beyond the range of a driven normal form.
-        #[error("the state is beyond the range of the series: at a distance of {distance:.3e} from the periodic motion the transformation misses it by {miss:.3e}; domain().best_order(amplitude) has the range")]
+        /// A state that is beyond the range of a normal form.
+        #[error("the state is beyond the range of the series: at a distance of {distance:.3e} from the equilibrium or the periodic motion the transformation there and back misses it by {miss:.3e}, more than 1 %; domain().best_order(amplitude) has the range")]
         BeyondSeries {
-            miss: f64 = "How far the nearest image of the transformation is from the state, in units of the variables.",
-            distance: f64 = "The distance of the state from the periodic motion.",
+            miss: f64 = "How far the transformation there and back ends from the state, in units of the variables.",
+            distance: f64 = "The distance of the state from the equilibrium or the periodic motion.",
         } => Theory, facts("state", *distance, "distances at which the order converges");
 
         /// The motion about a periodic solution has multipliers for which no real periodic frame is built.

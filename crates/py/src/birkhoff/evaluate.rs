@@ -24,6 +24,8 @@ impl BirkhoffNormalForm {
     /// ------
     /// InputError
     ///     An array of another length; a NaN, or a result that overflows.
+    /// TheoryError
+    ///     A state beyond the range of the series: the transformation there and back misses it by more than 1 % of its distance.
     #[pyo3(signature = (states, parameters=None, time=None))]
     fn to_normal<'py>(
         &self,
@@ -73,6 +75,8 @@ impl BirkhoffNormalForm {
     /// ------
     /// InputError
     ///     An array of another length; a NaN, or a result that overflows; a form without a centre.
+    /// TheoryError
+    ///     A point beyond the range of the series.
     #[pyo3(signature = (states, parameters=None, time=None))]
     #[expect(
         clippy::wrong_self_convention,
@@ -181,6 +185,8 @@ impl BirkhoffNormalForm {
     /// ------
     /// InputError
     ///     An array of another length; a NaN, or a result that overflows.
+    /// TheoryError
+    ///     A state beyond the range of the series: the transformation there and back misses it by more than 1 % of its distance.
     #[pyo3(signature = (states, parameters=None, time=None))]
     fn actions<'py>(
         &self,
@@ -202,7 +208,7 @@ impl BirkhoffNormalForm {
     /// Raises
     /// ------
     /// TheoryError
-    ///     K has resonant terms.
+    ///     K has resonant terms; actions whose states at time 0 are beyond the range of the series.
     /// InputError
     ///     An array of another length; a NaN, or an action below 0.
     #[pyo3(signature = (actions, parameters=None))]
@@ -236,6 +242,8 @@ impl BirkhoffNormalForm {
     /// ------
     /// InputError
     ///     An array of another length; a NaN, or a result that overflows.
+    /// TheoryError
+    ///     `state`, or a later one, is beyond the range of the series.
     /// ImportError
     ///     K has resonant terms, and SciPy is not installed.
     #[pyo3(signature = (state, times, parameters=None, time=0.0))]

@@ -3,14 +3,16 @@
 //! A state is q₁, p₁, q₂, p₂, … in the old or the new variables. For a centre only the image of U is needed: at real points q = Im U and p = Re U / r. For a
 //! saddle or a quartet the images of u and U are needed. Exact generators are rounded to floats once, and the series are composed from the rounded generators.
 //! With driven phases both transformations depend on the time; the methods without a time are those at time 0. The forced motion is added or subtracted
-//! as a number. Cost: the two transformations once, then one pass over their terms for each state. The error of a state of amplitude ε is of the order ε^(N+2).
+//! as a number. The error of a state of amplitude ε is of the order ε^(N+2); a point that the transformation there and back misses by more than 1 % is refused
+//! (`range`). Cost: the two transformations once, then one pass over the terms of both for each state.
 
+use super::BirkhoffNormalForm;
 use super::flow::{self, Flow};
 use super::matrix::{Matrix, dot, symplectic_inverse};
 use super::mode::Mode;
-use super::{BirkhoffNormalForm, PhaseSpace};
+use super::range::{LOST, LOST_TORUS, apart, check_return, largest, torus};
+use super::series::Series;
 use crate::error::Error;
-use crate::monomial::{Monomial, SLOTS};
 use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
 use crate::triangle::{Progress, quiet};
@@ -38,19 +40,13 @@ pub struct BirkhoffMap {
     linear: [Matrix<f64>; 2],
     direct: Vec<Series>,
     inverse: Vec<Series>,
+    /// The terms of `direct` without variables: the equilibrium under parameters, and the forced motion.
+    centre: Vec<Series>,
     /// The frequency and the phase at time 0 of each driven phase.
     driven: Vec<(f64, f64)>,
     /// The forced motion of all complex variables; empty without a force.
     shift: Vec<Series>,
     flow: Flow,
-}
-
-/// A polynomial in the complex variables with numbers for the parameters. Its terms are in canonical order.
-#[derive(Debug, Clone)]
-struct Series {
-    terms: Vec<(Monomial, Complex<f64>)>,
-    /// The slots from this one on hold harmonics.
-    driven: usize,
 }
 
 impl BirkhoffMap {
@@ -95,19 +91,21 @@ impl BirkhoffMap {
             direct.push(Series::new(&old, space, parameters)?);
             inverse.push(Series::new(&sum(transform.inverse_with(&variable, progress)?), space, parameters)?);
         }
+        let centre = direct.iter().map(|series| series.constant(space)).collect();
         let shift = shift.iter().map(|shift| Series::new(shift, space, parameters)).collect::<Result<_, _>>()?;
         let driven = normal_form.driven().iter().map(|(frequency, phase)| (frequency.to_float(), *phase)).collect();
         let matrix: Matrix<f64> =
             normal_form.linear_change().iter().map(|row| row.iter().map(R::to_float).collect()).collect();
         let back = symplectic_inverse(&matrix);
         let flow = Flow::new(normal_form, parameters)?;
-        Ok(BirkhoffMap { modes, linear: [matrix, back], direct, inverse, driven, shift, flow })
+        Ok(BirkhoffMap { modes, linear: [matrix, back], direct, inverse, centre, driven, shift, flow })
     }
 
     /// The normal coordinates of a state q₁, p₁, q₂, p₂, …
     ///
     /// # Errors
-    /// - a state of another length: [`Error::CountMismatch`]; a NaN, or a result that overflows: [`Error::NotFinite`].
+    /// - a state of another length: [`Error::CountMismatch`]; a NaN, or a result that overflows: [`Error::NotFinite`];
+    /// - a state beyond the range of the series: [`Error::BeyondSeries`].
     pub fn to_normal(&self, state: &[f64]) -> Result<Vec<f64>, Error> {
         self.to_normal_at(state, 0.0)
     }
@@ -118,8 +116,31 @@ impl BirkhoffMap {
     /// - the errors of [`to_normal`](Self::to_normal); a time that is a NaN or infinite: [`Error::NotFinite`].
     pub fn to_normal_at(&self, state: &[f64], time: f64) -> Result<Vec<f64>, Error> {
         check("state", state, 2 * self.modes.len())?;
-        let phases = self.phases(time)?;
-        self.transformed(&self.inverse, self.powers(&self.unforced(state, &phases), &phases))
+        let phases = &self.phases(time)?;
+        let normal = self.inverted(state, phases)?;
+        let miss = self.expressed(&normal, phases).map_or(f64::INFINITY, |back| apart(&back, state));
+        check_return(miss, largest(state).max(self.forced(phases)?), LOST)?;
+        Ok(normal)
+    }
+
+    /// The inverse series at a state, without a test of its range.
+    fn inverted(&self, state: &[f64], phases: &[f64]) -> Result<Vec<f64>, Error> {
+        self.transformed(&self.inverse, self.powers(&self.unforced(state, phases), phases))
+    }
+
+    /// The direct series at normal coordinates, without a test of its range.
+    fn expressed(&self, normal: &[f64], phases: &[f64]) -> Result<Vec<f64>, Error> {
+        let powers = self.powers(&flow::complex_point(&self.modes, normal), phases);
+        finite("transformed state", self.linear(0, &self.transformed(&self.direct, powers)?))
+    }
+
+    /// The largest variable of the equilibrium, or of the forced motion at phases.
+    fn forced(&self, phases: &[f64]) -> Result<f64, Error> {
+        if self.centre.iter().all(|series| series.terms.is_empty()) {
+            return Ok(0.0);
+        }
+        let powers = self.powers(&vec![Complex::default(); 2 * self.modes.len()], phases);
+        Ok(largest(&self.linear(0, &self.transformed(&self.centre, powers)?)))
     }
 
     /// The complex variables of a state, measured from the forced motion.
@@ -147,8 +168,16 @@ impl BirkhoffMap {
     pub fn from_normal_at(&self, normal: &[f64], time: f64) -> Result<Vec<f64>, Error> {
         check("state", normal, 2 * self.modes.len())?;
         let phases = &self.phases(time)?;
-        let powers = self.powers(&flow::complex_point(&self.modes, normal), phases);
-        finite("transformed state", self.linear(0, &self.transformed(&self.direct, powers)?))
+        let state = self.expressed(normal, phases)?;
+        self.check_inverse(normal, &state, phases, LOST)?;
+        Ok(state)
+    }
+
+    /// Refuses a state from which the inverse series misses its normal coordinates by more than `part` of their size, both in the variables of states.
+    fn check_inverse(&self, normal: &[f64], state: &[f64], phases: &[f64], part: f64) -> Result<(), Error> {
+        let distance = largest(&self.linear(0, normal)).max(self.forced(phases)?);
+        let missed = |back: Vec<f64>| apart(&self.linear(0, &back), &self.linear(0, normal));
+        check_return(self.inverted(state, phases).map_or(f64::INFINITY, missed), distance, part)
     }
 
     /// The state at a point of the centre manifold. `centre` holds q and p of the centres only.
@@ -200,10 +229,15 @@ impl BirkhoffMap {
     /// # Errors
     /// - another number of actions: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`]; −1 for a centre: [`Error::OutsideInterval`], since I = (q²/r + r
     ///   p²)/2 is never negative;
-    /// - a resonant normal form: [`Error::ResonantTerm`].
+    /// - a resonant normal form: [`Error::ResonantTerm`]; actions whose states at time 0 are beyond the range of the series: [`Error::BeyondSeries`].
     pub fn frequencies(&self, actions: &[f64]) -> Result<Vec<f64>, Error> {
         check_actions(&self.modes, actions)?;
-        finite("frequencies", self.flow.frequencies(actions)?)
+        let frequencies = finite("frequencies", self.flow.frequencies(actions)?)?;
+        let phases = &self.phases(0.0)?;
+        for normal in torus(&self.modes, actions) {
+            self.check_inverse(&normal, &self.expressed(&normal, phases)?, phases, LOST_TORUS)?;
+        }
+        Ok(frequencies)
     }
 
     /// The value of the normal form at normal coordinates.
@@ -255,7 +289,7 @@ impl BirkhoffMap {
     pub fn trajectory_from(&self, state: &[f64], start: f64, times: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
         check("times", times, times.len())?;
         let normal = self.to_normal_at(state, start)?;
-        let frequencies = self.frequencies(&flow::actions(&self.modes, &normal))?;
+        let frequencies = finite("frequencies", self.flow.frequencies(&flow::actions(&self.modes, &normal))?)?;
         let at =
             |&time: &f64| self.from_normal_at(&flow::advanced(&self.modes, &normal, &frequencies, time), start + time);
         times.iter().map(at).collect()
@@ -300,45 +334,6 @@ pub(crate) fn needed(mode: usize, kind: &Mode<f64>) -> Vec<usize> {
         Mode::Elliptic { .. } => vec![2 * mode + 1],
         Mode::Complex { frequency, .. } if *frequency < 0.0 => Vec::new(),
         _ => vec![2 * mode, 2 * mode + 1],
-    }
-}
-
-impl Series {
-    fn new(polynomial: &Polynomial<Complex<f64>>, space: &PhaseSpace, parameters: &[f64]) -> Result<Self, Error> {
-        let mut polynomial = polynomial.clone();
-        for (slot, &value) in (2 * space.degrees_of_freedom()..).zip(parameters) {
-            polynomial = polynomial.evaluate_partial(slot, &Complex::new(value, 0.0))?;
-        }
-        let terms: Vec<_> = polynomial.terms().map(|(monomial, &c)| (monomial, c)).collect();
-        match terms.iter().find(|(_, c)| !(c.re.is_finite() && c.im.is_finite())) {
-            None => Ok(Series { terms, driven: space.driven_slots().start }),
-            Some((monomial, c)) => {
-                Err(Error::NotFinite { what: "transformation", term: format!("{c} at {:?}", space.turns(*monomial)) })
-            }
-        }
-    }
-
-    /// The value at a point. `powers` holds tables of powers with at least the powers 0 and 1; they grow as needed.
-    fn evaluate(&self, powers: &mut [Vec<Complex<f64>>]) -> Complex<f64> {
-        let mut sum = Complex::default();
-        for &(monomial, c) in &self.terms {
-            let mut product = c;
-            for (slot, table) in powers.iter_mut().enumerate().take(SLOTS) {
-                let exponent = monomial.exponent(slot) as usize;
-                if exponent == 0 {
-                    continue;
-                }
-                while table.len() <= exponent {
-                    let length = table.len();
-                    let harmonic = slot >= self.driven;
-                    let (last, factor) = if harmonic { (length - 2, 2 - length % 2) } else { (length - 1, 1) };
-                    table.push(table[last] * table[factor]);
-                }
-                product *= table[exponent];
-            }
-            sum += product;
-        }
-        sum
     }
 }
 

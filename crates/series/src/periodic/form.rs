@@ -26,6 +26,7 @@ use crate::birkhoff::Mode;
 use crate::birkhoff::domain::{Domain, size};
 use crate::birkhoff::map::{check_actions, finite, needed};
 use crate::birkhoff::matrix::symplectic_inverse;
+use crate::birkhoff::range::torus;
 use crate::bracket::Poisson;
 use crate::error::Error;
 use crate::monomial::Monomial;
@@ -217,7 +218,18 @@ impl DrivenForm {
         [change, inverse]
     }
 
-    /// The rates ∂K/∂I at actions: frequencies of centres, growth rates of saddles.
+    /// The rates ∂K/∂I at actions whose states at phases \[rad\] are within the range of the series.
+    ///
+    /// # Errors
+    /// - Those of [`frequencies`](Self::frequencies); states beyond the range: [`Error::BeyondSeries`].
+    pub fn frequency_map(&self, actions: &[f64], phases: &[f64]) -> Result<Vec<f64>, Error> {
+        let frequencies = self.frequencies(actions)?;
+        let form = self.at(phases);
+        torus(self.modes(), actions).iter().try_for_each(|normal| form.check_torus(normal))?;
+        Ok(frequencies)
+    }
+
+    /// The rates ∂K/∂I at actions: frequencies of centres, growth rates of saddles. Their range is not tested.
     ///
     /// # Errors
     /// - another number of actions: [`Error::CountMismatch`]; −1 for a centre: [`Error::OutsideInterval`]; a result that is not finite: [`Error::NotFinite`].

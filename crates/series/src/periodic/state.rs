@@ -9,14 +9,13 @@ use super::form::DrivenForm;
 use super::images::ImageTerm;
 use crate::birkhoff::flow::{actions, advanced, complex_point, real_point};
 use crate::birkhoff::map::check;
+use crate::birkhoff::range::{LOST, LOST_TORUS, apart, check_return, largest};
 use crate::error::Error;
 use crate::monomial::Monomial;
 
 /// Most steps to normal coordinates, and the smallest factor by which a step that counts comes nearer.
 const STEPS: usize = 80;
 const SLOWEST: f64 = 0.9;
-/// An image that misses its state by more than this part of the distance from the periodic motion is beyond the range of the series.
-const LOST: f64 = 0.01;
 /// A distance below this part of the variables is rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -47,11 +46,56 @@ impl FormAtPhases<'_> {
     /// The state q₁, p₁, … of real normal variables: U = p + iq of a centre.
     ///
     /// # Errors
-    /// - another number of variables: [`Error::CountMismatch`]; a NaN, or a state that is not finite: [`Error::NotFinite`].
+    /// - another number of variables: [`Error::CountMismatch`]; a NaN, or a state that is not finite: [`Error::NotFinite`];
+    /// - a state beyond the range of the series: [`Error::BeyondSeries`].
     pub fn from_normal(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
         check("state", normal, self.origin.len())?;
         let moduli: Vec<f64> = complex_point(&self.form.motion.modes, normal).iter().map(|c| c.norm()).collect();
-        self.image(normal, &self.terms(&moduli), self.form.order())
+        let terms = self.terms(&moduli);
+        let state = self.image(normal, &terms, self.form.order())?;
+        self.check_inverse(normal, &state, &terms, LOST)?;
+        Ok(state)
+    }
+
+    /// Refuses real normal variables beyond the range of the frequencies.
+    ///
+    /// # Errors
+    /// - Those of [`from_normal`](Self::from_normal).
+    pub(super) fn check_torus(&self, normal: &[f64]) -> Result<(), Error> {
+        let moduli: Vec<f64> = complex_point(&self.form.motion.modes, normal).iter().map(|c| c.norm()).collect();
+        let terms = self.terms(&moduli);
+        let state = self.image(normal, &terms, self.form.order())?;
+        self.check_inverse(normal, &state, &terms, LOST_TORUS)
+    }
+
+    /// Refuses a state from which the iteration of [`to_normal`](Self::to_normal) does not lead back to its normal variables, to `part` of their size. It ends as soon
+    /// as it is near enough.
+    fn check_inverse(&self, normal: &[f64], state: &[f64], terms: &[TermAtPhases], part: f64) -> Result<(), Error> {
+        let (wanted, size) = (self.linear(state), largest(normal));
+        let (mut found, mut least) = (wanted.clone(), f64::INFINITY);
+        for _ in 0..STEPS {
+            let miss = apart(&found, normal);
+            if miss <= part * size.max(ROUNDING * largest(state)) {
+                return Ok(());
+            }
+            if miss >= least {
+                break;
+            }
+            least = miss;
+            let Ok(image) = self.image(&found, terms, self.form.order()) else { break };
+            let seen = self.linear(&image);
+            found.iter_mut().zip(wanted.iter().zip(seen)).for_each(|(x, (wanted, seen))| *x += wanted - seen);
+        }
+        // The miss of the state is of the size of that of the normal variables, beside its distance.
+        let distance = apart(state, &self.origin);
+        Err(Error::BeyondSeries { miss: least / size * distance, distance })
+    }
+
+    /// The real normal variables of the linear part at a state.
+    fn linear(&self, state: &[f64]) -> Vec<f64> {
+        let moved: Vec<f64> = state.iter().zip(&self.origin).map(|(x, origin)| x - origin).collect();
+        let row = |row: &Vec<Complex<f64>>| row.iter().zip(&moved).map(|(a, x)| a * x).sum::<Complex<f64>>();
+        real_point(&self.form.motion.modes, &self.inverse.iter().map(row).collect::<Vec<_>>())
     }
 
     /// The terms that count where the complex variables have these moduli.
@@ -108,11 +152,7 @@ impl FormAtPhases<'_> {
     /// - another number of variables: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`]; a state of which no image keeps two digits: [`Error::BeyondSeries`].
     pub fn to_normal(&self, state: &[f64]) -> Result<Vec<f64>, Error> {
         let (normal, miss) = self.to_normal_by_orders(state, &[self.form.order()])?.remove(0);
-        let distance = state.iter().zip(&self.origin).fold(0.0_f64, |most, (x, origin)| most.max((x - origin).abs()));
-        let size = state.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        if miss > LOST * distance.max(ROUNDING * size) {
-            return Err(Error::BeyondSeries { miss, distance });
-        }
+        check_return(miss, apart(state, &self.origin).max(ROUNDING * largest(state)), LOST)?;
         Ok(normal)
     }
 
@@ -124,16 +164,11 @@ impl FormAtPhases<'_> {
     pub fn to_normal_by_orders(&self, state: &[f64], orders: &[usize]) -> Result<Vec<(Vec<f64>, f64)>, Error> {
         check("state", state, self.origin.len())?;
         let modes = &self.form.motion.modes;
-        let linear = |state: &[f64]| -> Vec<f64> {
-            let moved: Vec<f64> = state.iter().zip(&self.origin).map(|(x, origin)| x - origin).collect();
-            let row = |row: &Vec<Complex<f64>>| row.iter().zip(&moved).map(|(a, x)| a * x).sum::<Complex<f64>>();
-            real_point(modes, &self.inverse.iter().map(row).collect::<Vec<_>>())
-        };
-        let wanted = linear(state);
+        let wanted = self.linear(state);
         // A variable that is 0 in the linear part is not 0 in the state.
         let point = complex_point(modes, &wanted);
-        let largest = MARGIN * point.iter().map(|c| c.norm()).fold(0.0, f64::max);
-        let terms = self.terms(&vec![largest; point.len()]);
+        let reach = MARGIN * point.iter().map(|c| c.norm()).fold(0.0, f64::max);
+        let terms = self.terms(&vec![reach; point.len()]);
         // Each order begins where the one before it ended.
         let mut begin = wanted.clone();
         let settled = |&order: &usize| {
@@ -149,7 +184,7 @@ impl FormAtPhases<'_> {
                 if ends {
                     break;
                 }
-                let seen = linear(&image);
+                let seen = self.linear(&image);
                 normal.iter_mut().zip(wanted.iter().zip(seen)).for_each(|(x, (wanted, seen))| *x += wanted - seen);
             }
             begin.clone_from(&best);

@@ -4,6 +4,7 @@ mod autotrait;
 mod birkhoff;
 mod birkhoff_kept;
 mod birkhoff_motion;
+mod birkhoff_range;
 mod birkhoff_refusals;
 mod bracket;
 mod calculus;

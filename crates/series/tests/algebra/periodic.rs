@@ -332,5 +332,9 @@ fn a_state_beyond_the_range_of_the_series_has_no_normal_variables() -> Result<()
         "{beyond:?}"
     );
     assert!(matches!(form.trajectory(&[3.0, 0.0], &[0.0], &[0.0]), Err(Error::BeyondSeries { .. })));
+    // Neither have normal variables and actions a state there.
+    assert!(form.at(&[0.0]).from_normal(&[0.3, 0.0]).is_ok() && form.frequency_map(&[0.05], &[0.0]).is_ok());
+    assert!(matches!(form.at(&[0.0]).from_normal(&[3.0, 0.0]), Err(Error::BeyondSeries { .. })));
+    assert!(matches!(form.frequency_map(&[5.0], &[0.0]), Err(Error::BeyondSeries { .. })));
     Ok(())
 }
