@@ -192,7 +192,6 @@ def test_andoyer_angles_give_the_attitude_back_under_a_torque(scene):
 @pytest.mark.parametrize("method", ["auto", "integrated"])
 def test_a_torque_that_no_double_holds_is_refused_by_name(elements, argument, method):
     orbit = Orbit(eccentricity=0.1, **elements)
-    scene = Scene(Body([0.5, 0.75, 1.0]), [0, 0, 0, 1], [0.2, 0.3, 1.1], orbit=orbit, span=(0, 20), method=method)
     with pytest.raises(InputError, match=f"orbit.{argument} = .* normal doubles") as caught:
-        scene.solve()
-    assert caught.value.argument == f"orbit.{argument}"
+        Scene(Body([0.5, 0.75, 1.0]), [0, 0, 0, 1], [0.2, 0.3, 1.1], orbit=orbit, span=(0, 20), method=method)
+    assert caught.value.argument == argument
