@@ -23,8 +23,7 @@ const LONGEST: f64 = 1e300;
 
 pub(super) const POSITIVE: &str = "positive and finite";
 /// The bound in words of what scales the torque of a body on an orbit.
-const REPRESENTABLE: &str =
-    "such that the attraction, mean_motion^2 * mass_fraction unless given, and its quotient by mean_motion^2 are normal doubles";
+const REPRESENTABLE: &str = "such that the attraction, mean_motion^2 * mass_fraction unless given, and its quotient by mean_motion^2 are normal doubles";
 
 /// Largest eccentricity. Powers of the distance do not overflow.
 const MOST_ECCENTRIC: f64 = 1e50;

@@ -44,15 +44,15 @@ impl Scene {
     }
 }
 
-/// Why a scene has no motion yet.
-enum Unsolved {
-    Failed(Error),
-    Integration(Box<Integration>),
+/// A scene is solved by a theory, or it is to be integrated.
+enum Choice {
+    Solved(Box<Motion>),
+    Integrate(Box<Integration>),
 }
 
-impl From<Error> for Unsolved {
-    fn from(error: Error) -> Self {
-        Self::Failed(error)
+impl From<Motion> for Choice {
+    fn from(motion: Motion) -> Self {
+        Self::Solved(Box::new(motion))
     }
 }
 
@@ -76,13 +76,13 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> 
     if by_theory_alone && scene.asked_disturbing().is_empty() && scene.asked_torques().is_empty() {
         return by_theory(scene, tables);
     }
-    choice(scene, tables, stop).or_else(|unsolved| match unsolved {
-        Unsolved::Failed(error) => Err(error),
-        Unsolved::Integration(chosen) => {
+    match choice(scene, tables, stop)? {
+        Choice::Solved(motion) => Ok(*motion),
+        Choice::Integrate(chosen) => {
             let found = Integrated::new(&chosen.scene, &chosen.reason, stop);
             chosen.finished(found, tables)
         }
-    })
+    }
 }
 
 /// The motions of several scenes about principal axes. Those that are integrated are integrated together.
@@ -94,30 +94,30 @@ pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> V
         _ => scenes.into_par_iter().map(choose).collect(),
     });
     let chosen = choices.iter().filter_map(|choice| match choice {
-        Err(Unsolved::Integration(chosen)) => Some((&chosen.scene, &chosen.reason[..])),
+        Ok(Choice::Integrate(chosen)) => Some((&chosen.scene, &chosen.reason[..])),
         _ => None,
     });
     let mut found = several(&chosen.collect::<Vec<_>>(), stop).into_iter();
-    let mut finished = |unsolved| match unsolved {
-        Unsolved::Failed(error) => Err(error),
-        Unsolved::Integration(chosen) => chosen.finished(found.next().unwrap_or(Err(Error::Stopped)), &tables),
+    let mut finished = |choice| match choice {
+        Choice::Solved(motion) => Ok(*motion),
+        Choice::Integrate(chosen) => chosen.finished(found.next().unwrap_or(Err(Error::Stopped)), &tables),
     };
-    choices.into_iter().map(|choice| choice.or_else(&mut finished)).collect()
+    choices.into_iter().map(|choice| choice.and_then(&mut finished)).collect()
 }
 
-/// The motion, unless the scene is integrated.
-fn choice(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Unsolved> {
+/// The motion by a theory, or the integration that the scene needs.
+fn choice(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Choice, Error> {
     let integration = |scene: Scene, reason: String| {
-        Err(Unsolved::Integration(Box::new(Integration { scene, reason, by_theory: None, locked: None })))
+        Ok(Choice::Integrate(Box::new(Integration { scene, reason, by_theory: None, locked: None })))
     };
     match (scene.asked_method(), beyond_theory(&scene)) {
-        (Method::Libration, Some(reason)) if !scene.asked_torques().is_empty() => Err(Error::NoLibration { reason })?,
-        (Method::Libration, _) => Ok(libration::motion(scene, tables, stop)?),
+        (Method::Libration, Some(reason)) if !scene.asked_torques().is_empty() => Err(Error::NoLibration { reason }),
+        (Method::Libration, _) => libration::motion(scene, tables, stop).map(Choice::from),
         (Method::Integrated, _) => integration(scene, String::new()),
         (Method::Auto, Some(reason)) => integration(scene, format!("theory: {reason}")),
-        (method, Some(reason)) => Err(Error::OnlyIntegrated { method: method.to_string(), reason })?,
+        (method, Some(reason)) => Err(Error::OnlyIntegrated { method: method.to_string(), reason }),
         (_, None) if may_be_integrated(&scene) => cheapest(scene, tables, stop),
-        (method, None) => Ok(without_integration(scene, method, tables, stop)?),
+        (method, None) => without_integration(scene, method, tables, stop).map(Choice::from),
     }
 }
 
@@ -228,17 +228,17 @@ fn may_be_integrated(scene: &Scene) -> bool {
 
 /// The theory where it meets the tolerance, else the integration where that does, else the theory: it costs less, and the plan says how near the integration
 /// would come. For several bodies and for orbits that precess the smaller error bound decides instead.
-fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Unsolved> {
+fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Choice, Error> {
     let by_theory = match by_theory(scene.clone(), tables) {
-        Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion),
-        Err(error) if error.kind() != Kind::Theory => return Err(error.into()),
+        Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion.into()),
+        Err(error) if error.kind() != Kind::Theory => return Err(error),
         by_theory => by_theory,
     };
     let prospect = prospect(&scene);
     let mut locked = None;
     if prospect.is_none_or(|(_, steps)| steps > STEPS_OF_A_FORM) {
         match libration::serving(&scene, tables, stop)? {
-            Ok(motion) => return Ok(motion),
+            Ok(motion) => return Ok(motion.into()),
             Err(reason) => locked = reason.map(|reason| format!("libration: {reason}")),
         }
     }
@@ -247,7 +247,7 @@ fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Mo
             Some(unused) => {
                 let mut motion = without(motion, unused);
                 motion.plan.skipped.extend(locked);
-                return Ok(motion);
+                return Ok(motion.into());
             }
             None => {
                 let reason = format!("theory: its error bound is {}", bound_in_words(motion.plan.error_bound));
@@ -256,7 +256,7 @@ fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Mo
         },
         Err(error) => (None, format!("theory: {}", in_ascii(&error.to_string()))),
     };
-    Err(Unsolved::Integration(Box::new(Integration { scene, reason, by_theory, locked })))
+    Ok(Choice::Integrate(Box::new(Integration { scene, reason, by_theory, locked })))
 }
 
 /// Why a scene is not integrated although the theory does not meet the tolerance, or `None`.
