@@ -190,6 +190,38 @@ def test_comments_say_scene_and_bounds(tmp_path):
     assert "of SPICE's interpolation: 1e-5 rad." in text
 
 
+def test_clock_in_tdt_needs_no_leap_seconds(tmp_path, loaded):
+    """Most clocks of missions have this time system. The ticks are those that SPICE has with the leapseconds kernel of NAIF."""
+    clock = tmp_path / "clock.tsc"
+    clock.write_text(CLOCK.replace("TIME_SYSTEM_5 = ( 1 )", "TIME_SYSTEM_5 = ( 2 )"), encoding="ascii")
+    motion, interval = MOTIONS["one rotation a day"]
+    kernel, path = Kernel(clock=clock, clock_id=-5), tmp_path / "motion.bc"
+    written = write_ck(path, motion, interval, kernel, interpolation_error=1e-6)
+    assert spice.ktotal("ALL") == 0 and not spice.expool("DELTET/K")
+    leap = tmp_path / "leap.tls"  # constants of naif0012.tls
+    values = "DELTET/DELTA_T_A = 32.184\nDELTET/K = 1.657D-3\nDELTET/EB = 1.671D-2\nDELTET/M = ( 6.239996D0 1.99096871D-7 )\n"
+    leap.write_text(f"KPL/LSK\n\\begindata\n{values}\\begintext\n", encoding="ascii")
+    loaded(leap, clock, path, path.with_suffix(".tsc"))
+    times = np.random.default_rng(3).uniform(*interval, 100)
+    assert angle_between(read(times, kernel)[0], motion.attitude(times)).max() < written.error + 1e-9
+    write_ck(tmp_path / "again.bc", motion, interval, kernel, interpolation_error=1e-6)
+    assert spice.gdpool("DELTET/K", 0, 1)[0] == 1.657e-3  # those of the user stay
+
+
+@pytest.mark.parametrize("first", [2.57e10, 2.5344e10], ids=["ahead", "back"])
+def test_clock_that_jumps_is_refused_where_it_does(first, tmp_path):
+    """The advice was another interpolation error, which cannot help."""
+    clock = tmp_path / "clock.tsc"
+    clock.write_text(CLOCK.replace("( 0.0 -1.0E8 1.0000001 )", f"( 0.0 -1.0E8 1.0   {first:.8E} 1.0E6 1.0 )"), encoding="ascii")
+    motion, kernel = solved([0, 0, 1e-3]), Kernel(clock=clock, clock_id=-5)
+    with pytest.raises(
+        andoyer.InputError, match="interval must be on one side of the jump of the clock.*the clock jumps by .* ticks, from (999999.9|1000000.0)"
+    ):
+        write_ck(tmp_path / "motion.bc", motion, (9e5, 1.1e6), kernel, interpolation_error=1e-5)
+    write_ck(tmp_path / "before.bc", motion, (9e5, 9.9e5), kernel, interpolation_error=1e-5)
+    write_ck(tmp_path / "after.bc", motion, (1.01e6, 1.1e6), kernel, interpolation_error=1e-5)
+
+
 BAD = {
     "no length": ((1.0, 1.0), {}, "interval must be two finite times"),
     "not finite": ((0.0, float("nan")), {}, "interval must be two finite times"),

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use andoyer_kernels::{Kernel, Refused, clock};
+use andoyer_series::error::Short;
 
 use crate::error::Error;
 use crate::motion::solved::Motion;
@@ -123,8 +124,11 @@ impl KernelOptions<'_> {
         if records <= most {
             return Ok(());
         }
-        let value =
-            format!("{:e} rad, which needs about {records:.0} records over this interval", self.interpolation_error);
+        let value = format!(
+            "{:e} rad, which needs about {} records over this interval",
+            self.interpolation_error,
+            Short(records.round())
+        );
         let allowed = format!("so large that at most {most:.0} records are needed; or shorten the interval");
         Err(Refused::new("interpolation_error", value, allowed))
     }
@@ -169,6 +173,10 @@ impl KernelOptions<'_> {
         };
         if ticks.is_sorted_by(|one, next| one < next) {
             return Ok(ticks);
+        }
+        if let Some(jump) = jump(times, &ticks) {
+            let allowed = "on one side of the jump of the clock: write a kernel for each side";
+            return Err(Refused::new("interval", jump, allowed).into());
         }
         let apart = ticks[ticks.len() - 1] * f64::EPSILON;
         let value = format!("records less than {apart:.2e} ticks apart");
@@ -300,4 +308,22 @@ pub(super) fn beside<T>(
             write(binary)
         })
     })
+}
+
+/// Where the count of a clock leaps, forward or back: two neighbouring times whose ticks differ from those of its mean rate by more than half of them and more than rounding.
+fn jump(times: &[f64], ticks: &[f64]) -> Option<String> {
+    let last = times.len() - 1;
+    let rate = (ticks[last] - ticks[0]) / (times[last] - times[0]);
+    let rounding = 64.0 * f64::EPSILON * ticks[0].abs().max(ticks[last].abs());
+    let off = |place: usize| {
+        let expected = rate * (times[place + 1] - times[place]);
+        let away = ticks[place + 1] - ticks[place] - expected;
+        (away.abs() > 0.5 * expected.abs() + rounding).then_some((place, away))
+    };
+    let (place, away) = (0..last).filter_map(off).max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
+    let (before, after) = (times[place], times[place + 1]);
+    Some(format!(
+        "an interval in which the clock jumps by {} ticks, from {before:?} to {after:?} s of TDB past J2000",
+        Short::rounded(away, 6)
+    ))
 }

@@ -22,6 +22,9 @@ from andoyer.output.record import ShortRecord
 from andoyer.output.rows import Array, calendar_times, rows
 from andoyer.output.table import Progress, silent
 
+DELTET = {"DELTA_T_A": [32.184], "K": [1.657e-3], "EB": [1.671e-2], "M": [6.239996, 1.99096871e-7]}
+"""Constants of TT and TDB for SPICE, as in NAIF's leapseconds kernel naif0012.tls: a clock in TDT needs them, and no leap seconds, because no time is in UTC."""
+
 SPICE = threading.RLock()
 """Held while SpiceyPy has the clock kernel of the user: SPICE has one state for the whole process."""
 
@@ -270,9 +273,14 @@ def _ticks(kernel: Kernel) -> Iterator[Any]:
     with SPICE:
         try:
             spice.furnsh(os.fspath(kernel.clock))
+            missing = [f"DELTET/{name}" for name in DELTET if not spice.expool(f"DELTET/{name}")]
+            for name in missing:
+                spice.pdpool(name, DELTET[name.removeprefix("DELTET/")])
             try:
                 yield lambda times: [spice.sce2c(kernel.clock_code, time) for time in times]
             finally:
+                for name in missing:
+                    spice.dvpool(name)
                 spice.unload(os.fspath(kernel.clock))
         except spice.exceptions.SpiceyError as error:
             spice.reset()
