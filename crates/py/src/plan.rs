@@ -112,7 +112,7 @@ impl Plan {
         self.0.level().map(|level| level.to_string())
     }
 
-    /// The size of the torque: the sum of the short-period corrections of the gravity gradient, in rad; 0 without an orbit.
+    /// The size of the torque: the sum of the short-period corrections of the averaged theory, in rad; 0 without an orbit, and for an integrated or a locked motion, which has none.
     #[getter]
     fn torque(&self) -> f64 {
         self.0.torque()

@@ -106,3 +106,32 @@ def test_iteration_gives_motions(members):
     ensemble = Ensemble(*members)[:3]
     assert [type(motion) for motion in ensemble] == [Motion] * 3
     assert [motion.energy_ratio for motion in ensemble] == ensemble.energy_ratio.tolist()
+
+
+SERVED = {
+    "integrated": {"method": "integrated", "orbits": andoyer.Orbit(2e-3, 0.1), "span": (0.0, 50.0), "tolerance": 1e-9},
+    "averaged": {"orbits": andoyer.Orbit(2e-3, 0.1), "tolerance": 1.0},
+    "free": {},
+}
+
+
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
+@pytest.mark.parametrize("options", SERVED.values(), ids=SERVED)
+@pytest.mark.parametrize("own", [False, True], ids=["shared times", "own times"])
+def test_time_that_a_motion_does_not_serve_is_nan_alone(options, own):
+    """With errors="nan" one such time made all rows of the ensemble NaN."""
+    members = ([1.0, 1.02, 1.05], [0, 0, 0, 1], [[0, 0.01, 1.0], [0.02, 0.01, 0.9]])
+    ensemble = Ensemble(*members, errors="nan", **options)
+    times = np.linspace(0.0, 40.0, 9)
+    good = np.stack([times, times + 1.0]) if own else times
+    bad = np.array(good)
+    bad[..., 3] = 1e300
+    bad[(0, 7) if own else 7] = -1e300
+    lost = np.broadcast_to(np.abs(bad) > 1e200, (2, 9))
+    samples, expected = ensemble.at(bad), ensemble.at(good)
+    for found, right in ((samples.attitude, expected.attitude), (samples.angular_velocity, expected.angular_velocity)):
+        assert np.isnan(found[lost]).all() and np.abs(found[~lost] - right[~lost]).max() < 1e-12
+    assert np.array_equal(np.isnan(ensemble.angular_momentum(bad)).all(axis=-1), lost)
+    assert np.array_equal(np.isnan(ensemble.partials(bad).attitude).all(axis=(-1, -2)), lost)
+    assert list(samples.errors) == [0, 1] and not expected.errors
+    assert "1e300" in str(samples.errors[1])

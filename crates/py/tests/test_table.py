@@ -27,6 +27,16 @@ def test_table_is_read_back_to_the_same_bits(motion, tmp_path, ending, scalar_fi
     assert np.array_equal(table.samples.angular_velocity, expected.angular_velocity)
 
 
+def test_csv_keeps_a_scene_and_a_remark_behind_its_table(motion, tmp_path):
+    path, bare = tmp_path / "out.csv", tmp_path / "bare.csv"
+    output.write_csv(path, motion.at(TIMES), scene=motion.scene, remark="misses # the tolerance")
+    output.write_csv(bare, motion.at(TIMES))
+    text = path.read_text(encoding="utf-8")
+    assert text.startswith(bare.read_text(encoding="utf-8")) and '# remark: "misses # the tolerance"' in text.splitlines()
+    table = read_table(path)
+    assert table.scene == motion.scene and np.array_equal(table.samples.attitude, motion.at(TIMES).attitude)
+
+
 @pytest.mark.parametrize("ending", ["npz", "parquet"])
 def test_scene_and_units_are_kept(motion, tmp_path, ending):
     if ending == "parquet":

@@ -11,7 +11,7 @@ pub enum OnError {
     /// The first one is the error of all.
     #[default]
     Raise,
-    /// Its rows are NaN, and the outcome has its error.
+    /// Its rows are NaN, and the outcome has its error. If its motion does not serve some of the times, the rows of these alone are NaN.
     Nan,
 }
 

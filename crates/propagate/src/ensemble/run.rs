@@ -2,6 +2,7 @@
 //!
 //! A member's motion lives while its rows are written; those under a torque are kept ([`super::kept`]).
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
@@ -143,10 +144,10 @@ impl<'a> MembersRun<'a> {
         evaluate: impl Fn(&Batch<'_>, &[f64], &mut [[f64; N]]) -> Result<(), Error> + Sync,
     ) -> Result<Outcome, Error> {
         let each = self.ensemble.times_of_each("out", times, out.len())?;
-        let evaluate = |motion: &Motion, index: usize, rows: &mut &mut [[f64; N]]| {
-            evaluate(&self.batch(motion), of_member(times, index, each), rows)
+        let fill = |motion: &Motion, index: usize, rows: &mut &mut [[f64; N]], part: Range<usize>| {
+            evaluate(&self.batch(motion), &of_member(times, index, each)[part.clone()], &mut rows[part])
         };
-        self.each_member(out.chunks_mut(each.max(1)), evaluate, |rows| rows.fill([f64::NAN; N]))
+        self.each_time(each, out.chunks_mut(each.max(1)), fill, |rows, part| rows[part].fill([f64::NAN; N]))
     }
 
     /// As [`Ensemble::samples_into`].
@@ -162,12 +163,14 @@ impl<'a> MembersRun<'a> {
         length("rates", rates.len(), attitudes.len())?;
         let each = self.ensemble.times_of_each("attitudes", times, attitudes.len())?;
         let rows = attitudes.chunks_mut(each.max(1)).zip(rates.chunks_mut(each.max(1)));
-        let evaluate = |motion: &Motion, index: usize, rows: &mut (&mut [[f64; 4]], &mut [[f64; 3]])| {
-            self.batch(motion).samples_into(of_member(times, index, each), rows.0, rows.1)
-        };
-        self.each_member(rows, evaluate, |rows| {
-            rows.0.fill([f64::NAN; 4]);
-            rows.1.fill([f64::NAN; 3]);
+        let fill =
+            |motion: &Motion, index: usize, rows: &mut (&mut [[f64; 4]], &mut [[f64; 3]]), part: Range<usize>| {
+                let times = &of_member(times, index, each)[part.clone()];
+                self.batch(motion).samples_into(times, &mut rows.0[part.clone()], &mut rows.1[part])
+            };
+        self.each_time(each, rows, fill, |rows, part| {
+            rows.0[part.clone()].fill([f64::NAN; 4]);
+            rows.1[part].fill([f64::NAN; 3]);
         })
     }
 
@@ -220,12 +223,14 @@ impl<'a> MembersRun<'a> {
         length("rates", rates.len(), attitudes.len())?;
         let each = self.ensemble.times_of_each("attitudes", times, attitudes.len())?;
         let rows = attitudes.chunks_mut(each.max(1)).zip(rates.chunks_mut(each.max(1)));
-        let evaluate = |motion: &Motion, index: usize, rows: &mut (&mut [Derivatives<N>], &mut [Derivatives<N>])| {
-            fill(&self.batch(motion), of_member(times, index, each), rows.0, rows.1)
+        type Rows<'r, const N: usize> = (&'r mut [Derivatives<N>], &'r mut [Derivatives<N>]);
+        let fill = |motion: &Motion, index: usize, rows: &mut Rows<'_, N>, part: Range<usize>| {
+            let times = &of_member(times, index, each)[part.clone()];
+            fill(&self.batch(motion), times, &mut rows.0[part.clone()], &mut rows.1[part])
         };
-        self.each_member(rows, evaluate, |rows| {
-            rows.0.fill([[f64::NAN; N]; 3]);
-            rows.1.fill([[f64::NAN; N]; 3]);
+        self.each_time(each, rows, fill, |rows, part| {
+            rows.0[part.clone()].fill([[f64::NAN; N]; 3]);
+            rows.1[part].fill([[f64::NAN; N]; 3]);
         })
     }
 
@@ -278,7 +283,24 @@ impl<'a> MembersRun<'a> {
         if self.stop.load(Ordering::Relaxed) { Err(Error::Stopped) } else { Ok(()) }
     }
 
-    /// Evaluates each member. The rows of members that fail are filled by `blank`. With [`OnError::Raise`] the error is that of the first such member, for any
+    /// Evaluates each member at `count` times. If refused members are to be NaN, a time that a motion does not serve is NaN by itself; the outcome has the error of the
+    /// first such time.
+    fn each_time<Rows: Send>(
+        &self,
+        count: usize,
+        rows: impl Iterator<Item = Rows>,
+        fill: impl Fn(&Motion, usize, &mut Rows, Range<usize>) -> Result<(), Error> + Sync,
+        blank: impl Fn(&mut Rows, Range<usize>) + Sync,
+    ) -> Result<Outcome, Error> {
+        let alone = self.ensemble.asked_on_error() == OnError::Nan;
+        let evaluate = |motion: &Motion, index: usize, rows: &mut Rows| {
+            let fill = |rows: &mut Rows, part: Range<usize>| fill(motion, index, rows, part);
+            if alone { by_halves(rows, 0..count, &fill, &blank) } else { fill(rows, 0..count) }
+        };
+        self.each_member(rows, evaluate, |rows| blank(rows, 0..count))
+    }
+
+    /// Evaluates each member. The rows of members that fail are filled by `blank`, unless the failure is that of a time. With [`OnError::Raise`] the error is that of the first such member, for any
     /// number of threads.
     fn each_member<Rows: Send>(
         &self,
@@ -288,14 +310,21 @@ impl<'a> MembersRun<'a> {
     ) -> Result<Outcome, Error> {
         let Self { ensemble, .. } = *self;
         let told = |outcome: Outcome, (index, rows): (usize, &mut Rows), motion: &Result<Motion, Error>| {
-            let refused = match motion {
+            let (outcome, refused) = match motion {
                 Ok(motion) => match evaluate(motion, index, rows) {
                     Ok(()) => return outcome.solved(index, motion.plan()),
-                    Err(error) => error,
+                    // The other times have their values.
+                    Err(error @ Error::Time { .. }) => (outcome.solved(index, motion.plan()), error),
+                    Err(error) => {
+                        blank(rows);
+                        (outcome, error)
+                    }
                 },
-                Err(error) => error.clone(),
+                Err(error) => {
+                    blank(rows);
+                    (outcome, error.clone())
+                }
             };
-            blank(rows);
             outcome.refused(index, Error::of_member(index, refused))
         };
         let size = ensemble.group();
@@ -325,6 +354,34 @@ impl<'a> MembersRun<'a> {
             OnError::Nan => Ok(outcome),
             OnError::Raise => outcome.or_first_error(),
         }
+    }
+}
+
+/// Fills the rows of a part of the times, and where a time of it is refused, those of each half. A refused time alone is filled by `blank`.
+///
+/// # Errors
+/// - The error of the first refused time, counted among all times; any other error at once.
+fn by_halves<Rows>(
+    rows: &mut Rows,
+    part: Range<usize>,
+    fill: &impl Fn(&mut Rows, Range<usize>) -> Result<(), Error>,
+    blank: &impl Fn(&mut Rows, Range<usize>),
+) -> Result<(), Error> {
+    match fill(rows, part.clone()) {
+        Err(Error::Time { index, value, epoch, span, bound, reason }) => {
+            let error = Error::Time { index: part.start + index, value, epoch, span, bound, reason };
+            if part.len() < 2 {
+                blank(rows, part);
+                return Err(error);
+            }
+            let middle = part.start + part.len() / 2;
+            let halves = [part.start..middle, middle..part.end].map(|half| by_halves(rows, half, fill, blank));
+            match halves.into_iter().find(|found| !matches!(found, Ok(()) | Err(Error::Time { .. }))) {
+                Some(other) => other,
+                None => Err(error),
+            }
+        }
+        found => found,
     }
 }
 

@@ -238,7 +238,8 @@ impl Plan {
         self.gradient.map(|gradient| gradient.level)
     }
 
-    /// Sum of the short-period corrections for the gravity gradient \[rad\], which measures the torque; 0 without an orbit.
+    /// Sum of the short-period corrections for the gravity gradient \[rad\], which measures the torque. It is 0 without an orbit, and for an integrated or a
+    /// locked motion: these have no such corrections, whatever the torque.
     pub fn torque(&self) -> f64 {
         self.gradient.map_or(0.0, |gradient| gradient.size)
     }

@@ -465,7 +465,7 @@ class Plan:
         """The level of the gravity-gradient theory: "full", "second-order", "moving" or "paper" (theory §9); None without an orbit and for an integrated motion."""
     @property
     def torque(self) -> float:
-        """The size of the torque: the sum of the short-period corrections of the gravity gradient, in rad; 0 without an orbit."""
+        """The size of the torque: the sum of the short-period corrections of the averaged theory, in rad; 0 without an orbit, and for an integrated or a locked motion, which has none."""
     @property
     def first_neglected(self) -> float:
         """The first neglected term of the gravity gradient, in rad: a short-period term of second order in the torque, which no level has, or one of first order that was dropped; 0 without an orbit."""

@@ -1,6 +1,6 @@
 """Tables of samples: CSV, NPZ and Parquet, written and read back to the same bits.
 
-NPZ and Parquet files also have the convention, the units, the scene and, if the samples have times of astropy, these times.
+NPZ and Parquet files also have the convention, the units, the scene and, if the samples have times of astropy, these times. A CSV file may have the scene.
 """
 
 import json
@@ -25,6 +25,9 @@ ROWS_AT_ONCE = 2**20
 
 LINES_AT_ONCE = 10_000
 """Lines between two words on how far the writing is."""
+
+COMMENT = "# "
+"""Begins the lines of a CSV file that hold no numbers."""
 
 JULIAN = ["jd1", "jd2"]
 """Columns of a calendar time: its Julian date in two doubles, as astropy has it."""
@@ -60,8 +63,17 @@ class Table:
     """Unit of each column, if the file has units."""
 
 
-def write_csv(path: str | os.PathLike[str], samples: Samples, progress: Progress = silent, *, orbital: Orbital | None = None, force: bool = True) -> None:
-    """Write samples as a CSV file.
+def write_csv(
+    path: str | os.PathLike[str],
+    samples: Samples,
+    progress: Progress = silent,
+    *,
+    scene: Scene | None = None,
+    remark: str | None = None,
+    orbital: Orbital | None = None,
+    force: bool = True,
+) -> None:
+    """Write samples as a CSV file. Scene and remark, if given, follow the table as lines that begin with #.
 
     Parameters
     ----------
@@ -71,6 +83,8 @@ def write_csv(path: str | os.PathLike[str], samples: Samples, progress: Progress
         Samples of one motion.
     progress : callable, optional
         Called as ``progress(done, total)`` with numbers of lines.
+    scene, remark
+        As in `write_npz`; each is one line, the text as JSON.
     orbital : Orbital, optional
         Attitudes and rates against the orbital frame at the same times: further columns.
     force : bool, optional
@@ -92,6 +106,8 @@ def write_csv(path: str | os.PathLike[str], samples: Samples, progress: Progress
     """
     with whole_file(path, force) as temporary, temporary.open("w", encoding="utf-8", newline="\n") as file:
         write_table(file, samples, progress, orbital)
+        texts = {"scene": scene.to_toml() if scene is not None else None, "remark": remark}
+        file.writelines(f"{COMMENT}{key}: {json.dumps(text)}\n" for key, text in texts.items() if text)
 
 
 def write_table(file: TextIO, samples: Samples, progress: Progress = silent, orbital: Orbital | None = None) -> None:
@@ -271,13 +287,16 @@ def _read_csv(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
         # Spreadsheets write a byte-order mark.
         with path.open(encoding="utf-8-sig") as file:
             names = file.readline().strip().split(",")
-            table = np.loadtxt(file, delimiter=",", ndmin=2, comments=None)
+            table = np.loadtxt(file, delimiter=",", ndmin=2, comments=COMMENT)
+        with path.open(encoding="utf-8-sig") as file:
+            said = [line.removeprefix(COMMENT).partition(": ") for line in file if line.startswith(COMMENT)]
+        texts = {key: json.loads(text) for key, _, text in said if key in ("scene", "remark")}
     except ValueError as error:
         raise ValueError(f"must be a table in CSV: {error}") from error
     _once(names)
     if table.size and table.shape[1] != len(names):
         raise ValueError(f"must have as many numbers in a line as names in the first: {table.shape[1]} and {len(names)}")
-    return dict(zip(names, table.reshape(-1, len(names)).T)), {}
+    return dict(zip(names, table.reshape(-1, len(names)).T)), texts
 
 
 def _read_npz(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
