@@ -233,7 +233,7 @@ andoyer_series::error_table! {
         => Theory, facts("orbit", *size, *bound);
 
         /// A span with more orbits than the averaged equations can be solved for.
-        #[error("averaging = spin: the span has {orbits:.0} orbits on one side of the epoch, and the averaged equations are solved for {bound} at most; averaging over the orbit reaches farther")]
+        #[error("averaging = spin: the span has {orbits} orbits on one side of the epoch, and the averaged equations are solved for {bound} at most; averaging over the orbit reaches farther", orbits = Short(.orbits.round()))]
         TooManyOrbits { orbits: f64 = "Orbits from the epoch to the farther end of the span.", bound: f64 = "The largest number of orbits." }
         => Theory, facts("span", *orbits, *bound);
 

@@ -1,6 +1,7 @@
 //! `andoyer.cassini_states`.
 
 use andoyer_propagate::disturbers;
+use andoyer_series::error::Short;
 use pyo3::prelude::*;
 
 use crate::array::number;
@@ -42,7 +43,11 @@ impl CassiniState {
     fn __repr__(&self) -> String {
         let kind = if self.0.stable { "stable" } else { "unstable" };
         let locked = self.0.resonance.map(|p| format!(", resonance {p}")).unwrap_or_default();
-        format!("<CassiniState, {kind}{locked}, obliquity {:.6} rad, rate {:.3e}>", self.0.obliquity, self.0.rate)
+        format!(
+            "<CassiniState, {kind}{locked}, obliquity {} rad, rate {:.3e}>",
+            Short::rounded(self.0.obliquity, 6),
+            self.0.rate
+        )
     }
 }
 

@@ -113,7 +113,7 @@ impl Orbit {
     ///
     /// Let n0² = GM/a³, p = a (1 − e²) and k = (3/2) n0 J2 (R/p)². The rate of the node is −k cos i, the rate of the argument of the pericentre is k (2 − (5/2)
     /// sin² i), and the rate of the mean anomaly is n0 + k √(1 − e²) (1 − (3/2) sin² i), which is `mean_motion`. Periodic terms of relative size J2 (R/p)² are
-    /// omitted. The function does not check that the orbit is above the ground, because the radius is only the reference radius of J2.
+    /// omitted. A pericentre below `radius` is refused: there the expansion in R/r does not hold, and mixed units of length are seen.
     ///
     /// Parameters
     /// ----------
@@ -141,7 +141,8 @@ impl Orbit {
     /// Raises
     /// ------
     /// InputError
-    ///     A gm, a semi-major axis or a radius that is not positive; an eccentricity outside 0 ≤ e < 1; a value that is not finite; a J2 for which the mean motion is not positive.
+    ///     A gm, a semi-major axis or a radius that is not positive; an eccentricity outside 0 ≤ e < 1; a pericentre a (1 − e) below `radius`; a value that is not finite;
+    ///     a J2 for which the mean motion is not positive.
     ///
     /// Examples
     /// --------

@@ -215,6 +215,12 @@ def test_rates_of_a_satellite_are_those_of_the_first_order_in_j2():
     assert orbit.attraction == pytest.approx(EARTH["gm"] / (EARTH["radius"] + 800e3) ** 3, rel=1e-15)
     with pytest.raises(andoyer.InputError, match="radius"):
         Orbit.around_oblate(EARTH["gm"], 7e6, 0.0, 1.0, j2=1e-3, radius=0.0)
+    # Kilometres beside metres; an axis, or only the pericentre, below the surface.
+    for axis, eccentricity in [(6778.0, 0.001), (6e6, 0.0), (9e6, 0.5)]:
+        with pytest.raises(andoyer.InputError, match="semi_major_axis.*such that the pericentre") as caught:
+            Orbit.around_oblate(EARTH["gm"], axis, eccentricity, 0.9, j2=EARTH["j2"], radius=EARTH["radius"])
+        assert (caught.value.argument, caught.value.value) == ("semi_major_axis", axis)
+    Orbit.around_oblate(EARTH["gm"], 2 * EARTH["radius"], 0.5, 0.9, j2=EARTH["j2"], radius=EARTH["radius"])
 
 
 def longitudes(motion, times):

@@ -162,3 +162,14 @@ def test_irrational_square_root_names_the_way_by_frequency():
     assert math.sqrt(2) * float(exact.in_actions()[2, 6]) * s**6 == pytest.approx(floats[2,], rel=1e-14)
     with pytest.raises(andoyer.RepresentationError, match=r"not rational .*: use floats, or, .*write a parameter w .*in Python the argument frequency"):
         normalize("(X^2 + Y^2)/2 + x^2 - x*y + y^2", 2, [("x", "X"), ("y", "Y")], exact=True)
+
+
+@pytest.mark.parametrize("power", range(-18, 19, 3))
+def test_radius_is_printed_with_its_digits_at_any_size(power):
+    """With c x^3 the radius is proportional to 1/c: it was printed with three decimals, 8.5e-5 as 0.000."""
+    form = normalize(f"(p^2 + x^2)/2 + {10.0**power!r}*x^3", 5, [("x", "p")], exact=False)
+    radius = form.domain().radii[-1]
+    shown = repr(form).partition("radius ")[2].rstrip(">")
+    assert float(shown) == pytest.approx(radius, rel=6e-4) and len(shown) < 20
+    unit = normalize("(p^2 + x^2)/2 + x^3", 5, [("x", "p")], exact=False).domain().radii[-1]
+    assert radius == pytest.approx(unit / 10.0**power, rel=1e-9)

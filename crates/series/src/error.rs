@@ -137,7 +137,7 @@ crate::error_table! {
         } => Input, facts("driven", *change, "coefficients of the period 2π");
 
         /// The solutions over a period of a driven phase take too many steps.
-        #[error("over the period of the first driven phase, whose rate is {rate:?}, the linear motion takes {steps:.0} steps, more than {bound}; the other rates of the Hamiltonian are too large beside it")]
+        #[error("over the period of the first driven phase, whose rate is {rate:?}, the linear motion takes {steps} steps, more than {bound}; the other rates of the Hamiltonian are too large beside it", steps = Short(.steps.round()))]
         PhaseTooSlow {
             rate: f64 = "The rate of the phase.",
             steps: f64 = "The number of steps.",
@@ -217,7 +217,7 @@ crate::error_table! {
         => Representation, facts("order", *order, *bound);
 
         /// An order whose normal form would not fit in memory.
-        #[error("order {order} would take some {estimate_gib:.0} GiB of memory: the bound is {bound_gib} GiB")]
+        #[error("order {order} would take some {estimate_gib} GiB of memory: the bound is {bound_gib} GiB", estimate_gib = Short(.estimate_gib.round()))]
         MemoryTooLarge {
             order: usize = "The order asked for.",
             estimate_gib: f64 = "Estimated memory.",

@@ -57,20 +57,20 @@ pub(super) fn turn(angle: f64, limit: f64) -> String {
 
 /// A number rounded to four digits.
 pub(super) fn four_digits(value: f64) -> Short {
-    Short(format!("{value:.3e}").parse().unwrap_or(value))
+    Short::rounded(value, 4)
 }
 
 /// A number rounded to two digits, with an exponent if it has more than six of them.
 fn two_digits(value: f64) -> String {
-    let text = format!("{value:.1e}");
-    if value < 1e6 { Short(text.parse().unwrap_or(value)).to_string() } else { text }
+    if value < 1e6 { Short::rounded(value, 2).to_string() } else { format!("{value:.1e}") }
 }
 
 /// That the terms of a resonance are too slow for a sum over time derivatives, if they are.
 pub(super) fn slow(divisor: f64, bound: f64) -> String {
     if divisor < bound {
         format!(
-            "; their frequency is {divisor:.3} times the largest angular rate of the orbit, and a sum over time derivatives needs more than {bound}"
+            "; their frequency is {} times the largest angular rate of the orbit, and a sum over time derivatives needs more than {bound}",
+            Short::rounded(divisor, 3)
         )
     } else {
         String::new()

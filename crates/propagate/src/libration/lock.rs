@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use andoyer_double::DoubleDouble;
+use andoyer_series::error::Short;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::shape::{LockedShape, PlaneMotion};
@@ -62,7 +63,8 @@ impl Lock {
         let mut found = if orders.contains(&nearest) {
             of(nearest)
         } else {
-            Err(format!("{spin:.3} rotations an orbit are near no resonance from 1/2 to {}", MOST_IN_TWO / 2))
+            let (spin, most) = (Short::rounded(spin, 4), MOST_IN_TWO / 2);
+            Err(format!("{spin} rotations an orbit are near no resonance from 1/2 to {most}"))
         };
         // In the middle of a swing a body can be nearer to the rate of the next resonance than to its own. |X| ≤ (1 − e)⁻³ bounds ω_ψ, and a pendulum swings no faster than ω_ψ.
         let kappa = orbit.disturbing_fraction();

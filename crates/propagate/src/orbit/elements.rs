@@ -115,7 +115,7 @@ impl Orbit {
     /// ```
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for a gm, a semi-major axis or a radius of 0, a J2 of NaN, an eccentricity of 1, or rates that make the mean motion 0 or negative.
+    /// - [`Error::Orbit`] for a gm, a semi-major axis or a radius of 0, a J2 of NaN, an eccentricity of 1, a pericentre inside the primary, or rates that make the mean motion 0 or negative.
     pub fn around_oblate(
         primary: &Oblateness,
         semi_major_axis: f64,
@@ -130,6 +130,8 @@ impl Orbit {
         finite("j2", j2)?;
         finite("inclination", inclination)?;
         check("eccentricity", eccentricity, (0.0..1.0).contains(&eccentricity), ELLIPSE)?;
+        let outside = "such that the pericentre, semi_major_axis (1 - eccentricity), is not inside the primary's radius, in one unit of length";
+        check("semi_major_axis", semi_major_axis, semi_major_axis * (1.0 - eccentricity) >= radius, outside)?;
         let attraction = gm / semi_major_axis / semi_major_axis / semi_major_axis;
         positive("attraction", attraction)?;
         let mean_motion = attraction.sqrt();

@@ -2,6 +2,7 @@
 
 use std::convert::Infallible;
 
+use andoyer_series::error::Short;
 use andoyer_series::print::Part;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
@@ -143,7 +144,7 @@ impl BirkhoffNormalForm {
         let (space, numbers) = (self.space(), if self.exact() { "exact" } else { "float" });
         let radii = either!(&self.form, form => form.domain(&[])).map(|domain| domain.radii()).unwrap_or_default();
         let radius = radii.into_iter().rev().find(|radius| radius.is_finite());
-        let radius = radius.map(|radius| format!(", radius {radius:.3}")).unwrap_or_default();
+        let radius = radius.map(|radius| format!(", radius {}", Short::rounded(radius, 4))).unwrap_or_default();
         let names = [space.names(), space.driven()].concat().join(", ");
         format!("<BirkhoffNormalForm of order {} in {names}, {numbers}{radius}>", self.order())
     }

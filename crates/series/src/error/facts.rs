@@ -112,6 +112,13 @@ pub fn facts<'a>(argument: impl Into<Option<&'a str>>, value: impl Into<Value>, 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Short(pub f64);
 
+impl Short {
+    /// The number rounded to this many significant digits, so that no small number is printed as 0.
+    pub fn rounded(value: f64, digits: usize) -> Self {
+        Self(format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value))
+    }
+}
+
 impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let size = self.0.abs();
