@@ -7,6 +7,7 @@ use std::sync::atomic::AtomicBool;
 use andoyer_double::two_sum;
 
 use super::expansion::{Equations, Start, Workspace};
+use super::growth::StepGrowth;
 use super::series::{Coefficients, MAX, Row, StateLanes, four, largest, norm};
 use super::step_errors::{PATTERNS, ROUNDING, RandomSigns, StepErrors, StepSizes, moved};
 use crate::error::Error;
@@ -293,11 +294,15 @@ impl Task for KeptSteps<'_> {
         let mut workspace = Workspace::new(equations);
         let (mut steps, mut coefficients) = (Vec::new(), Vec::new());
         let (mut kept, mut fast) = (true, None);
+        let mut growth = equations.torques.as_ref().map(|torques| StepGrowth::new(torques.brakes, MOST_STEPS));
         while runner.time != target {
             if steps.len() % AT_ONCE == 0 {
                 going(stop).map_err(|_| Error::Stopped)?;
                 affordable(equations, steps.len(), runner.time, target)?;
                 fast = spun_up(&runner, target, (fast, steps.len()))?;
+                if let Some(growth) = &mut growth {
+                    growth.check(steps.len(), runner.time.0, target.0)?;
+                }
             }
             let end = next_end(equations, runner.time.0, target, runner.backward);
             steps.push(runner.step());

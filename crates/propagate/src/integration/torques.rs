@@ -20,6 +20,8 @@ pub(super) struct Torques {
     constant: Vector3<f64>,
     linear: Matrix3<f64>,
     polynomials: Vec<Recipe>,
+    /// Whether a torque can end the growth of the rates by another one: damping, or a polynomial in the rates.
+    pub(super) brakes: bool,
 }
 
 /// Coefficients and places of monomials; no place is that of the constant 1.
@@ -74,22 +76,30 @@ impl Torques {
         }
         let inverse = Matrix3::from_diagonal(&Vector3::from(scene.body().moments()).map(f64::recip));
         let (mut constant, mut linear, mut polynomials) = (Vector3::zeros(), Matrix3::zeros(), Vec::new());
+        let (mut damping, mut brakes) = (Matrix3::zeros(), false);
         for torque in scene.asked_torques() {
             match torque {
                 Torque::Constant(given) => constant += Vector3::from(*given),
-                Torque::Damping(rows) => linear -= Matrix3::from_fn(|i, k| rows[i][k]),
+                Torque::Damping(rows) => damping += Matrix3::from_fn(|i, k| rows[i][k]),
                 // −ω × h = h × ω.
                 Torque::Rotor(momentum) => linear += Vector3::from(*momentum).cross_matrix(),
                 Torque::Polynomial(torque) => {
+                    let of_rates = |(_, powers): &(f64, Vec<u32>)| powers.iter().rev().take(3).any(|power| *power > 0);
+                    brakes |= torque.terms().iter().flatten().any(of_rates);
                     polynomials.push(Recipe::new(torque, &inverse, (scene, exponent), slopes))
                 }
             }
         }
+        // Damping alone is linear: what grows by it grows on. Beside other torques it leads to a terminal rate.
+        let others = constant != Vector3::zeros() || !polynomials.is_empty();
+        brakes |= others && (damping + damping.transpose()).symmetric_eigenvalues().max() > 0.0;
+        linear -= damping;
         let unit = |part: f64| scaled(part, -exponent);
         Some(Self {
             constant: (inverse * constant).map(|part| unit(unit(part))),
             linear: (inverse * linear).map(unit),
             polynomials,
+            brakes,
         })
     }
 

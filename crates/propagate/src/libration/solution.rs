@@ -11,7 +11,7 @@ use andoyer_series::periodic::DrivenForm;
 
 use super::convergence::Convergence;
 use super::course::FourierMotion;
-use super::form;
+use super::form::{self, MOST_PRODUCTS};
 use super::lock::Lock;
 use super::residual::residual;
 use crate::error::Error;
@@ -45,6 +45,8 @@ pub struct Libration {
     pub(super) error: f64,
     /// What the series leaves in the equations of motion, as an angle \[rad\].
     pub(super) residual: f64,
+    /// Why no higher order was tried, if its cost is the reason.
+    pub(crate) left_out: Option<String>,
 }
 
 /// What a libration is to meet.
@@ -85,7 +87,11 @@ fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libra
     let longest = wanted.longest();
     let motion =
         |form: &DrivenForm, normal: &[f64]| FourierMotion::new(form, lock, normal, NEGLIGIBLE * wanted.tolerance);
-    let mut form = form::form(&lock.shape, 0, wanted.tolerance, None, stop)?;
+    let limited = wanted.order.is_none();
+    let mut form = match form::periodic(&lock.shape, wanted.tolerance, limited, stop) {
+        Err(SeriesError::GridTooLarge { times, bound }) if limited => return Ok(Err(of_steps(times, bound))),
+        form => form?,
+    };
     let linear = motion(&form, &form.at(&lock.shape.driven(lock.start)).to_normal(&lock.state)?)?;
     // A libration in longitude is below a quarter turn.
     if linear.angle() > FRAC_PI_2 {
@@ -93,8 +99,14 @@ fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libra
     }
     let highest = wanted.order.unwrap_or(HIGHEST[lock.shape.rates().len()]);
     let (mut best, mut residual): (Option<(Arc<DrivenForm>, Convergence)>, Option<f64>) = (None, None);
+    let (mut made, mut left_out) = (0.0, None);
     for order in (wanted.order.unwrap_or(FIRST)..=highest).step_by(2) {
-        form = match form::form(&lock.shape, order, wanted.tolerance, Some(&form), stop) {
+        made += form::products(&lock.shape, order, form.grid().times());
+        if limited && made > MOST_PRODUCTS {
+            left_out = Some(of_order(order, &form, lock));
+            break;
+        }
+        form = match form::to_order(&form, &lock.shape, order, wanted.tolerance, stop) {
             Err(error) if best.is_none() || matches!(error, SeriesError::Interrupted { .. }) => return Err(error),
             Err(_) => break,
             Ok(form) => form,
@@ -124,15 +136,42 @@ fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libra
             break;
         }
     }
-    let Some((form, convergence)) = best else { return Ok(Err(limit(lock, &linear, &linear))) };
+    let Some((form, convergence)) = best else {
+        return Ok(Err(left_out.unwrap_or_else(|| limit(lock, &linear, &linear))));
+    };
     let error = convergence.error() + residual.unwrap_or(0.0);
     if !(wanted.strict || error > PI)
         && let Some(libration) = libration(&form, &convergence, lock, wanted)?.filter(|found| found.error < PI)
     {
-        return Ok(Ok(libration));
+        return Ok(Ok(Libration { left_out, ..libration }));
     }
-    let limit = limit(lock, &linear, &motion(&form, &convergence.normal)?);
+    let limit = match left_out {
+        Some(cost) => cost,
+        None => limit(lock, &linear, &motion(&form, &convergence.normal)?),
+    };
     Ok(Err(if error < PI { format!("its error bound is {}; {limit}", bound_in_words(error)) } else { limit }))
+}
+
+/// Why an order is not tried: its cost.
+fn of_order(order: usize, form: &DrivenForm, lock: &Lock) -> String {
+    let times = form.grid().times();
+    let products = form::products(&lock.shape, order, times);
+    let what =
+        format!("order {order} takes about {products:.1e} products of terms ({times} times of the orbit's phases)");
+    costly(&what, MOST_PRODUCTS, order)
+}
+
+/// Why no periodic motion is found: the cost of its steps.
+fn of_steps(times: usize, bound: usize) -> String {
+    let what = format!("the periodic motion takes steps at {times} times of the orbit's phases");
+    costly(&what, bound as f64, FIRST)
+}
+
+/// A cost with the largest one that needs no order, and what to do.
+fn costly(what: &str, bound: f64, order: usize) -> String {
+    format!(
+        "{what}, and at most {bound:.0e} are made unless order={order} asks for them; methods \"auto\" and \"integrated\" integrate over a span"
+    )
 }
 
 /// The libration by a form; none where its series is no motion.
@@ -152,7 +191,7 @@ fn libration(
     }
     let dropped = dropped + course.drop_below(DROPPED[1] * wanted.tolerance);
     let error = convergence.error() + residual + dropped + lock.others;
-    Ok(Some(Libration { lock: lock.clone(), course, order: form.order(), error, residual }))
+    Ok(Some(Libration { lock: lock.clone(), course, order: form.order(), error, residual, left_out: None }))
 }
 
 /// Why a series is not near the motion: the smallest divisor among low multiples, or the amplitude, or the span. `linear` is the motion of order 0.

@@ -63,6 +63,7 @@ fn of_lock(scene: Scene, lock: Lock, tables: &SeriesTables, stop: &AtomicBool) -
     plan.order = libration.order();
     plan.harmonics = libration.harmonics();
     plan.resonance = Some(libration.twice());
+    plan.skipped.extend(libration.left_out.clone());
     let trajectory = Trajectory::Forced(Arc::new(LibrationEvaluator::new(libration)));
     let mut motion = Motion { scene, plan, trajectory, ..free };
     motion.plan.error_bound = checked(&motion, n, reach, precesses, stop)?;

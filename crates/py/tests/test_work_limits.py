@@ -1,0 +1,75 @@
+"""What a solution costs is known beforehand: a libration makes no order, and an integration takes no steps, that nobody asked for. The limits are counts, not times."""
+
+import math
+import re
+
+import pytest
+
+from andoyer import Body, Orbit, Scene, TheoryError, Torque
+
+TURN = 2 * math.pi
+
+
+def precessing(eccentricity, pericentre_rate=0.0, moments=(0.9065, 0.9071, 1.0), **options):
+    """A body in the 1 : 1 resonance near the normal of an orbit that precesses."""
+    orbit = Orbit(1.0, eccentricity, inclination=0.3, node_rate=-0.002, pericentre_rate=pericentre_rate)
+    options = {"span": (0, 10 * TURN), "tolerance": 1e-9, "method": "libration"} | options
+    return Scene(Body(moments), [0.16, 0.0, 0.0, math.sqrt(1 - 0.16**2)], [0.0, 0.0, 1.0], orbit=orbit, **options)
+
+
+def cost(text):
+    """The order and the products that are not made, and the bound."""
+    found = re.search(
+        r"order (\d+) takes about (\S+) products of terms \((\d+) times of the orbit's phases\), and at most (\S+) are made unless order=(\d+)", text
+    )
+    assert found, text
+    order, products, times, bound, asked = found.groups()
+    assert order == asked
+    return int(order), float(products), int(times), float(bound)
+
+
+def test_an_order_that_costs_too_much_is_named_and_not_made():
+    motion = precessing(0.05).solve()
+    order, products, times, bound = cost("\n".join(motion.plan.skipped))
+    assert motion.plan.order == order - 2
+    # C(N + 14, 12) products of two polynomials in six variables to degree N + 2, for each time of the grid and each term.
+    assert products == pytest.approx(math.comb(order + 14, 12) * (times + 16), rel=0.06)
+    assert products + sum(math.comb(below + 14, 12) * (times + 16) for below in range(4, order, 2)) > bound
+    assert not motion.plan.meets_tolerance
+    assert motion.verify().holds
+
+
+def test_a_grid_that_costs_too_much_is_refused_with_its_cost():
+    with pytest.raises(TheoryError) as caught:
+        precessing(0.25, pericentre_rate=0.0071).solve()
+    _, products, _, bound = cost(str(caught.value))
+    assert products > bound or "phases" in str(caught.value)
+    assert 'methods "auto" and "integrated"' in str(caught.value)
+
+
+def test_auto_does_without_the_order_and_says_so():
+    plan = precessing(0.25, pericentre_rate=0.0071, method="auto").solve().plan
+    assert plan.method == "integrated"
+
+
+# A sphere turns at the rate of the torque's integral, and the steps of its rotation are equally long: their number grows as the angle.
+SPHERE = Body([1.0, 1.0, 1.0])
+
+
+def steps(torque, rate, span):
+    scene = Scene(SPHERE, [0, 0, 0, 1], [0, 0, rate], torques=torque, span=(0, span), tolerance=1e-15)
+    return scene.solve().plan.steps
+
+
+@pytest.mark.parametrize(
+    ("torque", "angle", "short", "span"),
+    [
+        (Torque.constant([0, 0, 1.0]), lambda t: t + t * t / 2, 200.0, 2e4),
+        (Torque.damping(-1.0), lambda t: math.exp(t) - 1, math.log(2e4), math.log(3e8)),
+    ],
+    ids=["constant", "negative damping"],
+)
+def test_the_steps_of_a_body_that_spins_up_are_predicted(torque, angle, short, span):
+    with pytest.raises(TheoryError, match="the integration needs about") as caught:
+        Scene(SPHERE, [0, 0, 0, 1], [0, 0, 1.0], torques=torque, span=(0, span), tolerance=1e-15).solve()
+    assert caught.value.value == pytest.approx(steps(torque, 1.0, short) * angle(span) / angle(short), rel=0.1)
