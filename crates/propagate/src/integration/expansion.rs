@@ -221,16 +221,16 @@ impl<const W: usize> Workspace<W> {
         }
     }
 
-    /// Sizes of the gravity gradient for its rounding errors over a step: Σ 2 |s| (|s2| + |s3|) eˣ and in turn. A direction s = Rᵀ r̃ has errors relative to |s|, however
+    /// Sizes of the gravity gradient for its rounding errors over a step: Σ 2 |s| (|s2| + |s3|) (eˣ − 1)/x and in turn. A direction s = Rᵀ r̃ has errors relative to |s|, however
     /// small a component is. R and r̃ turn by x radians in a step. Where they turn together the coefficients of s are small, but they are sums of terms as large as
-    /// those of eˣ. The factor is 2 because R is quadratic in q.
+    /// those of eˣ, whose mean over the step this is: the rates are the integral of the torque. The factor is 2 because R is quadratic in q.
     #[inline(always)]
     pub(super) fn sizes(&self, length: f64) -> StateLanes<W> {
         let mut sizes = [0.0; W];
         for (place, series) in self.places.iter().zip(&self.directions) {
             let distance = norm(&place[0]);
             let turned = length * (norm(&four(&self.rates[0], 0)) + norm(&place[1]) / distance.max(f64::MIN_POSITIVE));
-            let share = 2.0 * distance * turned.exp();
+            let share = 2.0 * distance * if turned > 0.0 { turned.exp_m1() / turned } else { 1.0 };
             let [one, other] = &series[0];
             for lane in (0..W).filter(|lane| lane % 4 < 3) {
                 sizes[lane] += share * (one[lane].abs() + other[lane].abs());

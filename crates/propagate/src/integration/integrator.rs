@@ -211,8 +211,10 @@ impl<const W: usize> Runner<W> {
     #[inline(always)]
     fn account(&mut self, length: f64, order: usize, (equations, workspace): (&Equations<W>, &Workspace<W>)) {
         let sizes = workspace.sizes(length);
-        let by_rates = ROUNDING[0] * largest(&sizes) + ROUNDING[1] * largest(&workspace.gyration);
-        let rate = by_rates * largest(&equations.factors) + ROUNDING[0] * largest(&workspace.further);
+        // Each axis has its own factor: the product of the largest of both can be none of them.
+        let parts = |lane: usize| ROUNDING[0] * sizes[lane].abs() + ROUNDING[1] * workspace.gyration[lane].abs();
+        let by_rates = (0..W).fold(0.0, |most: f64, lane| most.max(equations.factors[lane].abs() * parts(lane)));
+        let rate = by_rates + ROUNDING[0] * largest(&workspace.further);
         let sizes = StepSizes {
             omitted: [largest(&workspace.attitude[order]), largest(&workspace.rates[order])],
             rounding: [ROUNDING[1] * largest(&self.rates), rate],

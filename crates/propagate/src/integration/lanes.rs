@@ -170,22 +170,24 @@ impl<'a, S: InstructionSet> LaneMotions<'a, S> {
         let omitted = [largest(simd, &last[..4]), largest(simd, &last[4..])];
         let before = [largest(simd, &before[..4]), largest(simd, &before[4..])];
         let size = [before, omitted].map(|[attitude, rates]| larger(simd, attitude, simd.div_f64s(rates, scale)));
-        let factor = largest(simd, &self.factors);
+        // Each axis has its own factor.
+        let by_axes =
+            |sizes: [S::f64s; 3]| largest(simd, &[0, 1, 2].map(|axis| simd.mul_f64s(sizes[axis], self.factors[axis])));
         let distance = norm(simd, &self.path[0]);
         let least = larger(simd, distance, simd.splat_f64s(f64::MIN_POSITIVE));
         let turning = simd.add_f64s(norm(simd, &first[4..]), simd.div_f64s(norm(simd, &self.path[1]), least));
         let [one, two, three] = [0, 1, 2].map(|axis| largest(simd, &self.direction[0][axis..=axis]));
-        let across = largest(simd, &[simd.add_f64s(one, two), simd.add_f64s(two, three), simd.add_f64s(three, one)]);
+        let across = by_axes([simd.add_f64s(two, three), simd.add_f64s(three, one), simd.add_f64s(one, two)]);
         let twice = simd.mul_f64s(simd.splat_f64s(2.0 * ROUNDING[0]), distance);
-        let by_torque = simd.mul_f64s(simd.mul_f64s(twice, across), factor);
-        let gyration = simd.mul_f64s(simd.splat_f64s(ROUNDING[1]), largest(simd, &self.gyration));
+        let by_torque = simd.mul_f64s(twice, across);
+        let by_gyration = simd.mul_f64s(simd.splat_f64s(ROUNDING[1]), by_axes(self.gyration));
         LaneSizes {
             sizes: size.map(|size| stored::<S>(size)),
             omitted: omitted.map(|omitted| stored::<S>(omitted)),
             fastest: stored::<S>(fastest),
             turning: stored::<S>(turning),
             by_torque: stored::<S>(by_torque),
-            by_gyration: stored::<S>(simd.mul_f64s(gyration, factor)),
+            by_gyration: stored::<S>(by_gyration),
             radius,
         }
     }
@@ -274,7 +276,8 @@ impl LaneSizes {
 
     /// What the errors of a step of this length depend on: as [`super::integrator::Runner`] has it.
     pub(super) fn of_step(&self, lanes: Range<usize>, length: f64) -> StepSizes {
-        let growth = (length * worst(&self.turning, &lanes)).exp();
+        let turned = length * worst(&self.turning, &lanes);
+        let growth = if turned > 0.0 { turned.exp_m1() / turned } else { 1.0 };
         let by_torque = growth * worst(&self.by_torque, &lanes);
         StepSizes {
             omitted: self.omitted.each_ref().map(|omitted| worst(omitted, &lanes)),
