@@ -1,6 +1,6 @@
 //! Scenes from periods and from Andoyer variables: there and back, published figures, limits, errors.
 
-use andoyer_propagate::nalgebra::{Matrix3, Rotation3, Vector3};
+use andoyer_propagate::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use andoyer_propagate::options::Convention;
 use andoyer_propagate::periods::{ObservedPeriods, Periods};
 use andoyer_propagate::{Body, Error, Mode, Motion, Scene};
@@ -64,6 +64,49 @@ proptest! {
         let found = *scene(&body, &later).state();
         prop_assert!(attitude_error(found.attitude.coords.into(), expected.attitude.coords.into()) < 1e-9);
         prop_assert!((found.angular_velocity - expected.angular_velocity).amax() < 1e-9 * expected.angular_velocity.amax());
+    }
+
+    #[test]
+    fn a_sense_of_minus_one_turns_the_axis_of_the_mode_over(moments in moments(), beyond in 1.01..1.3_f64, long in any::<bool>(), phases in [0.0..1.0_f64, 0.0..1.0]) {
+        let body = Body::new(moments).expect("a body");
+        let mode = if long { Mode::LongAxis } else { Mode::ShortAxis };
+        let [lower, _] = body.period_ratios(mode, Convention::ExtremalAxis).expect("a mode");
+        let stated = ObservedPeriods { mode, phases, ..ObservedPeriods::new(1.3, 1.3 * lower * beyond).towards(0.7, -0.4).expect("a latitude") };
+        let extremal = if long { f64::min } else { f64::max };
+        let axis = moments.iter().position(|moment| *moment == moments.into_iter().reduce(extremal).unwrap()).expect("an axis");
+        for sense in [1.0, -1.0] {
+            let motion = scene(&body, &ObservedPeriods { sense: Some(sense), ..stated }).solve().expect("a motion");
+            prop_assert!(motion.scene().state().angular_velocity[axis] * sense > 0.0);
+            prop_assert!((motion.angular_momentum().normalize() - stated.momentum_direction).amax() < 1e-14);
+            prop_assert!((motion.extremal_axis_periods().rotation / stated.rotation - 1.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_state_nearest_to_an_attitude_is_nearer_than_any_phase(moments in moments(), beyond in 1.001..1.5_f64, long in any::<bool>(), turn in [-3.0..3.0_f64, -3.0..3.0, -3.0..3.0]) {
+        let body = Body::new(moments).expect("a body");
+        let mode = if long { Mode::LongAxis } else { Mode::ShortAxis };
+        let [lower, _] = body.period_ratios(mode, Convention::ExtremalAxis).expect("a mode");
+        let stated = ObservedPeriods { mode, ..ObservedPeriods::new(1.3, 1.3 * lower * beyond).towards(0.7, -0.4).expect("a latitude") };
+        let attitude = UnitQuaternion::from_scaled_axis(Vector3::from(turn));
+        let near = ObservedPeriods { attitude: Some(attitude), ..stated };
+        let motion = scene(&body, &near).solve().expect("a motion");
+        prop_assert!((motion.extremal_axis_periods().rotation / stated.rotation - 1.0).abs() < 1e-6);
+        prop_assert!((motion.angular_momentum().normalize() - stated.momentum_direction).amax() < 1e-13);
+        let found = motion.scene().state().attitude.angle_to(&attitude);
+        let steps = [0.0, 0.2, 0.4, 0.6, 0.8];
+        for (sense, rotation) in [1.0, -1.0].into_iter().flat_map(|sense| steps.map(|step| (sense, step))) {
+            for precession in steps {
+                let other = ObservedPeriods { sense: Some(sense), phases: [rotation, precession], ..stated };
+                prop_assert!(found <= scene(&body, &other).state().attitude.angle_to(&attitude) + 1e-7);
+            }
+        }
+        // An attitude of the motion itself leads back to its state.
+        let own = ObservedPeriods { sense: Some(-1.0), phases: [0.3, 0.8], ..stated };
+        let state = *scene(&body, &own).state();
+        let again = *scene(&body, &ObservedPeriods { attitude: Some(state.attitude), ..stated }).state();
+        prop_assert!(again.attitude.angle_to(&state.attitude) < 1e-9);
+        prop_assert!((again.angular_velocity - state.angular_velocity).amax() < 1e-8 * state.angular_velocity.amax());
     }
 
     #[test]
@@ -246,4 +289,17 @@ fn a_scene_file_states_periods_or_a_tensor() {
         let problem = Scene::parse_toml(&broken, "f").expect_err("broken").to_string();
         assert!(problem.starts_with(&format!("f: {key}")), "{problem}");
     }
+}
+
+#[test]
+fn a_bad_sense_and_phases_beside_an_attitude_are_refused() {
+    let body = Body::new([0.61, 0.965, 1.0]).expect("a body");
+    let periods = ObservedPeriods::new(27.38, 263.0);
+    for value in [0.0, 2.0, f64::NAN] {
+        let found = Scene::from_periods(body.clone(), &ObservedPeriods { sense: Some(value), ..periods });
+        assert!(matches!(found, Err(Error::Sense { .. })), "{found:?}");
+    }
+    let attitude = Some(UnitQuaternion::identity());
+    let both = ObservedPeriods { phases: [0.25, 0.0], attitude, ..periods };
+    assert!(matches!(Scene::from_periods(body, &both), Err(Error::PhasesAndAttitude { value: [0.25, 0.0] })));
 }

@@ -179,6 +179,14 @@ andoyer_series::error_table! {
         Latitude { value: [f64; 2] = r"Longitude and latitude as given \[rad\]." }
         => Input, facts("momentum_direction", *value, "a latitude from -pi/2 to pi/2");
 
+        /// A sense of the axis of a mode that is not a sign.
+        #[error("sense = {value}: it must be 1 or -1, for the positive or the negative axis of the mode along the angular momentum", value = Short(*.value))]
+        Sense { value: f64 = "The sense as given." } => Input, facts("sense", *value, "1 or -1");
+
+        /// Phases beside an attitude, which fixes them.
+        #[error("phases = {value:?}: the attitude fixes the phases; give one of the two")]
+        PhasesAndAttitude { value: [f64; 2] = "The phases as given." } => Input, facts("phases", *value, "absent beside an attitude");
+
         /// A vector or a number that is not finite, or a direction of length 0.
         #[error("{argument} = {value:?}: it must be {}", finite(.value))]
         Direction { argument: &'static str = "The argument.", value: Vec<f64> = "The value as given." }

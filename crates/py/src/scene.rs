@@ -24,7 +24,8 @@ use crate::{array, error};
 pub(crate) mod arguments;
 
 use arguments::{
-    disturbing_bodies, disturbing_body, doubt, epoch, not_a_body, precession, rotation, tolerance, with_options,
+    disturbing_bodies, disturbing_body, doubt, epoch, near, not_a_body, precession, rotation, sense, tolerance,
+    with_options,
 };
 
 immutable!(Scene);
@@ -117,14 +118,18 @@ impl Scene {
     ///     (inertial axis 3) × momentum, or towards inertial axis 1 if the momentum is along axis 3.
     /// epoch : float or Time, optional
     ///     Time of the state. With a `Time` the unit of the periods is the second.
+    /// attitude : array_like, shape (4,), or a rotation, optional
+    ///     An attitude as of `Scene`. The state is then the nearest one to it of all with these periods and this momentum direction, instead of that at `phases`.
+    /// sense : {1, -1}, optional
+    ///     1 puts the positive axis of the mode along the angular momentum, -1 the negative one, as of a body that turns the other way about this axis. By default 1, or with an attitude the nearer one.
     /// **options
-    ///     The other keyword arguments of `Scene`: orbit, tolerance, method, order, span, averaging, level, torques, name, source.
+    ///     The other keyword arguments of `Scene`: orbit, tolerance, method, order, span, averaging, level, torques, name, source; scalar_first for `attitude`.
     ///
     /// Raises
     /// ------
     /// InputError
     ///     A ratio P_ψ/P_φ that the body cannot have; the message states the interval of `Body.period_ratios`. A mode that an axisymmetric body does not
-    ///     have. A period that is not positive, a direction of length 0, a latitude beyond ±π/2, a value that is not finite.
+    ///     have. A period that is not positive, a direction of length 0, a latitude beyond ±π/2, a value that is not finite. A sense other than 1 and -1. Phases beside an attitude.
     ///
     /// Warns
     /// -----
@@ -142,7 +147,7 @@ impl Scene {
     #[classmethod]
     #[pyo3(signature = (
         body, precession, rotation, *, mode="short-axis", convention="extremal-axis", momentum_direction=None, phases=None, epoch=None,
-        **options
+        attitude=None, sense=None, **options
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn from_periods<'py>(
@@ -155,10 +160,14 @@ impl Scene {
         momentum_direction: Option<&Bound<'py, PyAny>>,
         phases: Option<&Bound<'py, PyAny>>,
         epoch: Option<&Bound<'py, PyAny>>,
+        attitude: Option<&Bound<'py, PyAny>>,
+        #[pyo3(from_py_with = sense)] sense: Option<f64>,
         options: Option<Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (time, _) = self::epoch(epoch)?;
-        let mut periods = ObservedPeriods { epoch: time, ..ObservedPeriods::new(precession, rotation) };
+        let attitude = near(attitude, phases, options.as_ref())?;
+        let mut periods =
+            ObservedPeriods { epoch: time, attitude, sense, ..ObservedPeriods::new(precession, rotation) };
         periods.mode = mode.parse().map_err(error::propagation)?;
         periods.convention = convention.parse().map_err(error::propagation)?;
         if let Some(phases) = phases {

@@ -136,3 +136,28 @@ def test_bad_tensors_are_refused_and_a_tensor_given_to_body_points_to_from_inert
     ):
         with pytest.raises(andoyer.InputError, match=said):
             Body.from_inertia(bad)
+
+
+@pytest.mark.parametrize("mode, axis", [("short-axis", 2), ("long-axis", 0)])
+def test_state_near_an_attitude_and_its_sense(mode, axis, tmp_path):
+    ratio = 1.05 * APOPHIS.period_ratios(mode)[0]
+    common = {"mode": mode, "momentum_direction": [1.0, 2.0, -0.5]}
+    for sense in (1, -1, np.sign(-3.0)):
+        own = Scene.from_periods(APOPHIS, 3.0, 3.0 * ratio, sense=sense, phases=(0.3, 0.8), **common)
+        assert own.angular_velocity[axis] * sense > 0
+        for attitude, options in ((own.attitude, {}), (np.roll(own.attitude, 1), {"scalar_first": True})):
+            near = Scene.from_periods(APOPHIS, 3.0, 3.0 * ratio, attitude=attitude, **common, **options)
+            assert near.attitude == pytest.approx(own.attitude, abs=1e-9) or near.attitude == pytest.approx(-own.attitude, abs=1e-9)
+            assert near.angular_velocity == pytest.approx(own.angular_velocity, abs=1e-8)
+        text = f"[body]\nmoments = {APOPHIS.moments.tolist()}\n[periods]\nprecession = 3.0\nrotation = {3.0 * ratio!r}\nmode = '{mode}'\n"
+        text += f"momentum_direction = [1.0, 2.0, -0.5]\nsense = {int(sense)}\n"
+        (tmp_path / "scene.toml").write_text(text + "phases = [0.3, 0.8]\n", encoding="utf-8")
+        assert Scene.from_toml(tmp_path / "scene.toml").attitude == pytest.approx(own.attitude, abs=1e-15)
+        (tmp_path / "scene.toml").write_text(text + f"attitude = {own.attitude.tolist()}\n", encoding="utf-8")
+        assert Scene.from_toml(tmp_path / "scene.toml").angular_velocity == pytest.approx(own.angular_velocity, abs=1e-8)
+    with pytest.raises(andoyer.InputError, match="sense"):
+        Scene.from_periods(APOPHIS, 3.0, 3.0 * ratio, sense=2, **common)
+    with pytest.raises(andoyer.InputError, match="phases"):
+        Scene.from_periods(APOPHIS, 3.0, 3.0 * ratio, attitude=[0, 0, 0, 1], phases=(0.0, 0.0), **common)
+    with pytest.raises(andoyer.InputError, match="attitude"):
+        Scene.from_periods(APOPHIS, 3.0, 3.0 * ratio, attitude=[0, 0, 0, 2], **common)

@@ -1,6 +1,7 @@
 //! Scenes from published quantities: a pair of periods, or Andoyer variables.
 
 mod andoyer;
+mod nearest;
 pub(crate) mod periods;
 
 use nalgebra::{UnitQuaternion, Vector3};

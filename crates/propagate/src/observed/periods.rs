@@ -10,7 +10,7 @@
 use std::f64::consts::TAU;
 
 use andoyer_double::DoubleDouble;
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use super::scene_about_principal_axes;
 use crate::error::Error;
@@ -55,6 +55,12 @@ pub struct ObservedPeriods {
     /// Elapsed fractions of P_ψ and P_φ at the epoch \[turns\]. At \[0, 0\] the axis around which the angular momentum circles is nearest to the angular
     /// momentum, and is tilted towards z × momentum (towards x if the momentum is along z).
     pub phases: [f64; 2],
+    /// 1 if the angular momentum circles the positive axis of the mode, −1 if it circles the negative one. `None` means 1, or with an attitude the nearer one.
+    /// The two motions differ by half a turn of the body about its intermediate axis.
+    pub sense: Option<f64>,
+    /// An attitude, body to inertial, near which the state is. The state is the nearest one to it of all with these periods and this momentum direction;
+    /// phases must be 0 then.
+    pub attitude: Option<UnitQuaternion<f64>>,
     /// Time of the state.
     pub epoch: f64,
 }
@@ -69,6 +75,8 @@ impl ObservedPeriods {
             convention: Convention::default(),
             momentum_direction: Vector3::z(),
             phases: [0.0; 2],
+            sense: None,
+            attitude: None,
             epoch: 0.0,
         }
     }
@@ -128,9 +136,10 @@ impl Body {
 }
 
 impl Scene {
-    /// Creates the scene of a body that tumbles with these periods without torque. For each mode there is exactly one.
+    /// Creates the scene of a body that tumbles with these periods without torque. For each mode, sense and pair of phases there is exactly one.
     ///
     /// # Errors
+    /// - [`Error::Sense`] for a sense other than 1 and −1; [`Error::PhasesAndAttitude`] for phases beside an attitude.
     /// - [`Error::Positive`] for a period that is zero, negative or not finite.
     /// - [`Error::PeriodRatio`] for periods that the body cannot have, with the interval of possible ratios; [`Error::ModeName`], [`Error::NoSuchMode`] as for
     ///   [`Body::period_ratios`].
@@ -151,13 +160,14 @@ impl Scene {
         let family = Family::new(&body, periods.mode, periods.convention)?;
         family.admits(periods.rotation / periods.precession, &body)?;
         let principal = body.about_principal_axes();
-        let start = family.state(periods);
-        let passed = Scene::new(principal, start).solve()?.at(periods.phases[0].rem_euclid(1.0) * periods.rotation)?;
-        // The precession during the phase along the polhode is subtracted.
-        let turns = periods.phases[1] - periods.phases[0].rem_euclid(1.0) * periods.rotation / periods.precession;
-        let axis = nalgebra::Unit::new_unchecked(unit(periods.momentum_direction));
-        let turned = UnitQuaternion::from_axis_angle(&axis, TAU * (turns - turns.round()));
-        Ok(scene_about_principal_axes(body, periods.epoch, turned * passed.attitude, passed.angular_velocity))
+        let (attitude, rates) = match periods.attitude {
+            Some(attitude) => {
+                let turn = body.turn().unwrap_or_else(UnitQuaternion::identity);
+                family.nearest(periods, attitude * turn)
+            }
+            None => family.phased(periods, principal)?,
+        };
+        Ok(scene_about_principal_axes(body, periods.epoch, attitude, rates))
     }
 }
 
@@ -175,6 +185,12 @@ impl ObservedPeriods {
         if self.phases.iter().any(|phase| !phase.is_finite()) {
             return Err(Error::Direction { argument: "phases", value: self.phases.to_vec() });
         }
+        if let Some(value) = self.sense.filter(|sense| sense.abs() != 1.0) {
+            return Err(Error::Sense { value });
+        }
+        if self.attitude.is_some() && self.phases != [0.0; 2] {
+            return Err(Error::PhasesAndAttitude { value: self.phases });
+        }
         if !self.epoch.is_finite() {
             return Err(Error::Epoch { value: self.epoch });
         }
@@ -183,12 +199,12 @@ impl ObservedPeriods {
 }
 
 /// The unit vector of a vector other than 0. The vector is scaled first, since squares of large components are infinite and of small ones 0.
-fn unit(vector: Vector3<f64>) -> Vector3<f64> {
+pub(super) fn unit(vector: Vector3<f64>) -> Vector3<f64> {
     (vector / vector.amax()).normalize()
 }
 
 /// The end of the part of an interval in which a condition holds that holds at its start.
-fn bisected([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
+pub(super) fn bisected([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
     loop {
         let middle = 0.5 * (low + high);
         if middle <= low || middle >= high {
@@ -199,9 +215,9 @@ fn bisected([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
 }
 
 /// The motions of a body in one mode, with M = 1 and scaled moments.
-struct Family {
+pub(super) struct Family {
     /// Rotation about the axis of the mode.
-    axial: Polhode,
+    pub(super) axial: Polhode,
     mode: Mode,
     convention: Convention,
     /// Whether the periods are those of the axis around which the angular momentum circles.
@@ -310,21 +326,51 @@ impl Family {
         if holds(RANGE[1]) { RANGE[1] } else { bisected(RANGE, holds) }
     }
 
-    /// The state at time 0 with phases 0: ℓ = π/2, where cos J has its maximum.
-    fn state(&self, periods: &ObservedPeriods) -> State {
+    /// Attitude and angular velocity, about principal axes, at the phases and in the sense of the periods.
+    fn phased(&self, periods: &ObservedPeriods, body: Body) -> Result<(UnitQuaternion<f64>, Vector3<f64>), Error> {
+        let part = periods.phases[0].rem_euclid(1.0);
+        let passed = Scene::new(body, self.state(periods)).solve()?.at(part * periods.rotation)?;
+        // The precession during the phase along the polhode is subtracted.
+        let turns = periods.phases[1] - part * periods.rotation / periods.precession;
+        let axis = nalgebra::Unit::new_unchecked(unit(periods.momentum_direction));
+        let turned = UnitQuaternion::from_axis_angle(&axis, TAU * (turns - turns.round()));
+        let (attitude, rates) = (turned * passed.attitude, passed.angular_velocity);
+        if periods.sense != Some(-1.0) {
+            return Ok((attitude, rates));
+        }
+        // Half a turn of the body about its intermediate axis, which reverses the other two.
+        let middle = self.axial.frame.axes[1];
+        let half = UnitQuaternion::new_unchecked(Quaternion::from_parts(0.0, Vector3::ith(middle, 1.0)));
+        let reversed = Vector3::from_fn(|axis, _| if axis == middle { rates[axis] } else { -rates[axis] });
+        Ok((attitude * half, reversed))
+    }
+
+    /// The polhode with M = 1 of these periods, and the angular momentum in the scaled units.
+    pub(super) fn motion(&self, periods: &ObservedPeriods) -> (Polhode, f64) {
         let polhode = self.with_ratio(periods.rotation / periods.precession);
         let [precession, _] = self.rates(&polhode);
         let momentum = TAU / (precession.to_f64() * periods.precession);
+        (polhode, momentum)
+    }
+
+    /// The angular velocity of an angular momentum on sorted axes.
+    pub(super) fn angular_velocity(&self, polhode: &Polhode, momentum: [f64; 3]) -> Vector3<f64> {
+        self.axial.frame.user(std::array::from_fn(|i| momentum[i] / polhode.moments[i])).into()
+    }
+
+    /// The state at time 0 with phases 0: ℓ = π/2, where cos J has its maximum.
+    fn state(&self, periods: &ObservedPeriods) -> State {
+        let (polhode, momentum) = self.motion(periods);
         let [_, sine] = polhode.invariants.sine_squares.map(|square| square.to_f64().sqrt());
         let [_, cosine] = polhode.invariants.cosine_squares.map(|square| square.to_f64().sqrt());
         let direction = [-sine, 0.0, cosine];
-        let rates = self.axial.frame.user(std::array::from_fn(|i| momentum * direction[i] / polhode.moments[i]));
+        let angular_velocity = self.angular_velocity(&polhode, direction.map(|x| momentum * x));
         let pole = unit(periods.momentum_direction);
         let node = Vector3::z().cross(&pole);
         let node = if node.amax() == 0.0 { Vector3::x() } else { unit(node) };
         let columns = [pole * -sine + node * cosine, pole.cross(&node), pole * cosine + node * sine];
         let sorted = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&columns));
         let attitude = UnitQuaternion::from_rotation_matrix(&sorted) * self.axial.frame.quaternion;
-        State { epoch: 0.0, attitude, angular_velocity: rates.into() }
+        State { epoch: 0.0, attitude, angular_velocity }
     }
 }

@@ -155,7 +155,10 @@ impl PeriodsTable {
     fn periods(self, epoch: f64) -> Result<ObservedPeriods, Refusal> {
         let mut periods = ObservedPeriods::new(self.precession, self.rotation);
         periods.mode = self.mode.unwrap_or(periods.mode);
-        let periods = ObservedPeriods { epoch, convention: self.convention, phases: self.phases, ..periods };
+        let attitude = self.attitude.map(|attitude| State::new(epoch, attitude, [0.0; 3])).transpose()?;
+        let attitude = attitude.map(|state| state.attitude);
+        let (convention, phases, sense) = (self.convention, self.phases, self.sense);
+        let periods = ObservedPeriods { epoch, convention, phases, sense, attitude, ..periods };
         match self.momentum_direction.as_deref() {
             None => Ok(periods),
             Some(&[longitude, latitude]) => Ok(periods.towards(longitude, latitude)?),

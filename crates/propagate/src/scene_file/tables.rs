@@ -121,6 +121,8 @@ pub(super) struct PeriodsTable {
     pub(super) momentum_direction: Option<Vec<f64>>,
     #[serde(default)]
     pub(super) phases: [f64; 2],
+    pub(super) sense: Option<f64>,
+    pub(super) attitude: Option<[f64; 4]>,
 }
 
 /// `[orbit]`: the elements of an orbit, or a table of positions.

@@ -275,6 +275,8 @@ class Scene:
         momentum_direction: ArrayLike | None = None,
         phases: ArrayLike | None = None,
         epoch: Any = None,
+        attitude: Any = None,
+        sense: float | None = None,
         **options: Any,
     ) -> Scene:
         """The scene of a torque-free body that tumbles with these periods (theory §7). In each mode there is one such motion."""

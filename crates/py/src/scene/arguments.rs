@@ -2,15 +2,16 @@
 
 use std::ffi::CString;
 
-use andoyer_propagate::State;
 use andoyer_propagate::disturbers::DisturbingBody;
+use andoyer_propagate::nalgebra::UnitQuaternion;
 use andoyer_propagate::periods::ObservedPeriods;
+use andoyer_propagate::{Error, State};
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
 use crate::array;
-use crate::error::InternalError;
+use crate::error::{self, InternalError};
 use crate::foreign::{self, Calendar};
 use crate::orbit::Orbit;
 use crate::tabulated::TabulatedOrbit;
@@ -32,6 +33,34 @@ pub(super) fn precession(value: &Bound<'_, PyAny>) -> PyResult<f64> {
 
 pub(super) fn rotation(value: &Bound<'_, PyAny>) -> PyResult<f64> {
     array::number("rotation", value)
+}
+
+pub(super) fn sense(value: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
+    if value.is_none() { Ok(None) } else { array::number("sense", value).map(Some) }
+}
+
+/// The attitude of `Scene.from_periods`, which takes the place of phases. Its order of components, `scalar_first`, is taken out of the options.
+pub(super) fn near(
+    attitude: Option<&Bound<'_, PyAny>>,
+    phases: Option<&Bound<'_, PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Option<UnitQuaternion<f64>>> {
+    let Some(attitude) = attitude else { return Ok(None) };
+    if let Some(phases) = phases {
+        let value = array::fixed("phases", phases)?;
+        return Err(error::propagation(Error::PhasesAndAttitude { value }));
+    }
+    let mut scalar_first = false;
+    if let Some(options) = options
+        && let Some(given) = options.get_item("scalar_first")?
+    {
+        scalar_first = given.extract::<bool>()? && !foreign::is_rotation(attitude)?;
+        options.del_item("scalar_first")?;
+    }
+    let mut quaternion = array::fixed("attitude", attitude)?;
+    foreign::scalar_last(&mut quaternion, scalar_first);
+    let state = State::new(0.0, quaternion, [0.0; 3]).map_err(error::propagation)?;
+    Ok(Some(state.attitude))
 }
 
 /// Warns of phases beyond a whole turn, which are probably in degrees.

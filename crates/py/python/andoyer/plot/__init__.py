@@ -1,7 +1,8 @@
 """Pictures of a motion with matplotlib: polhode, phase portrait, angles, rates, path of the pole, librations.
 
 Each function takes a `Motion`, and optionally times and the axes to draw into. It returns the axes; `summary` and the like return a figure. Angles are those of Andoyer
-(theory §1), in degrees. The labels assume that times are in seconds. Lines on the far side of a surface are pale, grey lines are other motions of the same body, and the dashed line is the separatrix. The colours are
+(theory §1), in degrees. Time axes have calendar dates if the epoch of the scene is a date. Otherwise they have the times of the scene, and `time_unit` names their unit. Without `times` a motion that
+is not periodic is drawn over its whole span: under user torques, beside a hyperbola, a table or several bodies. Lines on the far side of a surface are pale, grey lines are other motions of the same body, and the dashed line is the separatrix. The colours are
 those of Okabe and Ito, which colour-blind readers can distinguish; lines also differ in style or marker. The module needs matplotlib, which ``pip install matplotlib`` installs.
 """
 
@@ -18,7 +19,6 @@ from andoyer._extra import extra
 from andoyer._refusal import refusal
 from andoyer.output.page import page
 from andoyer.output.span import within_span
-from andoyer.plot._compared import clock as _clock
 from andoyer.plot._compared import components, difference, sampled_rates
 from andoyer.plot._diagrams import axes_or_new as _axes
 from andoyer.plot._diagrams import domain, error_by_order, work_precision
@@ -26,7 +26,9 @@ from andoyer.plot._drawing import near_pole, on_ellipsoid, plane
 from andoyer.plot._drawing import surface as draw_surface
 from andoyer.plot._film import film
 from andoyer.plot._librations import libration_spectrum, libration_summary, librations, pole_librations
+from andoyer.plot._mode import about, in_order, is_still, mode_axis, names, nutation_angle, precession_and_spin, without_mean
 from andoyer.plot._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION, Array
+from andoyer.plot._time import SAMPLES, Clock, chosen, clock_of, is_periodic, whole_span, whole_turns
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -39,8 +41,6 @@ TINY = 0.01
 """Amplitude J [rad] below which the polhode is a dot on the sphere, and angles are in microradians."""
 STEADY = 1e-11
 """Variation [rad] of an angle below which it is rounding."""
-TURNS, SAMPLES = 3, 3000
-"""Periods of the polhode that are drawn if no times are given, and how many times."""
 
 __all__ = [
     "angles",
@@ -68,19 +68,6 @@ __all__ = [
 ]
 
 
-def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> Array:
-    """Times over whole periods of the polhode from the epoch, or over whole rotations if the motion is steady. For an integrated motion they end with its span.
-
-    Returns
-    -------
-    ndarray, shape (samples,)
-        The times. For a body at rest they cover `turns` units of time.
-    """
-    precession, rotation = motion.periods["long-axis"]
-    period = next((time for time in (rotation, precession) if math.isfinite(time)), 1.0)
-    return np.linspace(*within_span(motion, motion.scene.epoch, motion.scene.epoch + turns * period), samples)
-
-
 def polhode(motion: Motion, axes: Axes | None = None, *, surface: str = "sphere") -> Axes:
     """Draw the polhode with the separatrix, on the sphere of momentum directions or on Poinsot's inertia ellipsoid, axis 3 up.
 
@@ -100,44 +87,40 @@ def polhode(motion: Motion, axes: Axes | None = None, *, surface: str = "sphere"
     if surface not in ("sphere", "ellipsoid"):
         raise refusal("surface", surface, "sphere or ellipsoid", f'= {surface!r}: it must be "sphere" or "ellipsoid"')
     axes = _axes(axes)
-    numbers, moments, directions = _sorted(motion, whole_turns(motion, 1))
+    numbers, moments, directions = in_order(motion, chosen(motion, None, 1))
     place = (lambda curve: curve) if surface == "sphere" else on_ellipsoid(moments)
-    draw_surface(axes, moments, directions, place, _names(numbers))
+    draw_surface(axes, moments, directions, place, names(numbers))
     axes.set_title("Polhode on the momentum sphere" if surface == "sphere" else "Polhode on the inertia ellipsoid")
     return axes
 
 
-def phase_portrait(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
-    """Draw Andoyer's plane (ν, N/M): level curves of the energy, the separatrix, the motion and its start."""
-    axes, times = _axes(axes), _times(motion, times)
-    _, moments, directions = _sorted(motion, times)
+def phase_portrait(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None, *, axis: str = "short-axis") -> Axes:
+    """Draw Andoyer's plane (ν, N/M): level curves of the energy, the separatrix, the motion and its start. With ``axis="long-axis"`` ν, N and J are about the long axis."""
+    axes, times = _axes(axes), chosen(motion, times)
+    _, moments, directions = about(motion, times, axis)
     nu = np.arctan2(directions[:, 0], directions[:, 1])
     plane(axes, moments, nu, directions[:, 2])
+    if axis == "long-axis":
+        axes.set_title("Plane (ν, N/M) about the long axis")
     return axes
 
 
-def polhode_near_pole(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
-    """Draw the path of the angular momentum in the body near the axis of greatest inertia, for a motion with small J."""
-    axes, times = _axes(axes), _times(motion, times)
-    numbers, _, directions = _sorted(motion, times)
-    near_pole(axes, directions, _names(numbers))
+def polhode_near_pole(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None, *, axis: str = "short-axis") -> Axes:
+    """Draw the path of the angular momentum in the body near the axis of greatest inertia, for a motion with small J, or near that of least inertia with ``axis="long-axis"``."""
+    axes, times = _axes(axes), chosen(motion, times)
+    numbers, _, directions = about(motion, times, axis)
+    near_pole(axes, directions, names(numbers))
     return axes
 
 
 def pole_path(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
     """Draw the inertial path of the direction of the angular momentum, in arcseconds from its start. Without a torque the path is a point.
 
-    The default times are one period of the orbit, or the span for several bodies or a table. East is along z × k and north is from k towards z, where k is the first direction.
+    The default times are one period of an elliptic orbit. A motion that is not periodic is drawn over its whole span. East is along z × k and north is from k towards z, where k is the first direction.
     """
     axes = _axes(axes)
-    orbit, epoch = motion.scene.orbit, motion.scene.epoch
-    one = orbit if isinstance(orbit, Orbit) else None
-    stop = epoch + 2 * math.pi / one.mean_motion if one else math.inf
-    reached = within_span(motion, epoch, stop)
-    whole = times is None and one is not None and reached == (epoch, stop)
-    if times is None and orbit is not None:
-        times = np.linspace(*reached, SAMPLES)
-    momentum = motion.angular_momentum(_times(motion, times))
+    times, title = (chosen(motion, times), "under the torques") if times is not None else _over(motion)
+    momentum = motion.angular_momentum(times)
     sizes = np.linalg.norm(momentum, axis=1, keepdims=True)
     directions = momentum / np.where(sizes > 0, sizes, 1)
     first = directions[0]
@@ -148,135 +131,179 @@ def pole_path(motion: Motion, times: ArrayLike | None = None, axes: Axes | None 
     axes.plot(*across[0], "o", color=BLUE, markersize=6, label="start")
     axes.plot(*across[-1], "s", color=VERMILION, markersize=6, label="end")
     axes.set(xlabel="east of where it starts [arcsec]", ylabel="north of where it starts [arcsec]")
-    title = "without a torque" if orbit is None else "over one orbit" if whole else "under the gravity gradient"
-    axes.set_title(f"Path of the angular momentum {title}", pad=22)
+    scene = motion.scene
+    forces = "under the gravity gradient" if title == "under the torques" and not scene.torques else title
+    axes.set_title(f"Path of the angular momentum {'without a torque' if scene.orbit is None and not scene.torques else forces}", pad=22)
     axes.margins(0.1)
     axes.ticklabel_format(useOffset=False)
     _legend(axes)
     return axes
 
 
-def nutation(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
-    """Draw the nutation J, the angle from the angular momentum to the axis of greatest inertia, over time."""
-    axes, times = _axes(axes), _times(motion, times)
-    angle = _nutation(_sorted(motion, times)[2])
+def _over(motion: Motion) -> tuple[Array, str]:
+    """The times of the path of the pole if none are given, and over what they are."""
+    scene = motion.scene
+    if is_periodic(motion) and isinstance(scene.orbit, Orbit):
+        stop = scene.epoch + 2 * math.pi / scene.orbit.mean_motion
+        reached = within_span(motion, scene.epoch, stop)
+        return np.linspace(*reached, SAMPLES), "over one orbit" if reached == (scene.epoch, stop) else "under the torques"
+    if is_periodic(motion) or scene.span is None:
+        return whole_turns(motion), "under the torques"
+    spanned = whole_span(motion)
+    return np.linspace(*scene.span, SAMPLES) if spanned is None else spanned, "over the span"
+
+
+def nutation(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None, *, axis: str = "short-axis", time_unit: str | None = None) -> Axes:
+    """Draw the nutation J, the angle from the angular momentum to the axis of greatest inertia, over time.
+
+    Parameters
+    ----------
+    motion : Motion
+    times : array_like, shape (n,), optional
+        Times of the scene. By default three periods of the polhode, or the whole span of a motion that is not periodic.
+    axes : matplotlib.axes.Axes, optional
+    axis : {"short-axis", "long-axis"}, optional
+        The axis: that of greatest or that of least inertia.
+    time_unit : str, optional
+        The name of the unit of time of the scene, for example "h". A scene with a calendar epoch has dates instead.
+    """
+    axes, times = _axes(axes), chosen(motion, times)
+    clock = clock_of(motion, times, time_unit)
+    angle = nutation_angle(about(motion, times, axis)[2])
     tiny = angle.max() < TINY
-    axes.plot(_clock(times)[0], 1e6 * angle if tiny else np.degrees(angle), color=BLUE)
-    axes.set(xlabel=_clock(times)[1], ylabel="J [μrad]" if tiny else "J [deg]")
-    axes.set_title("Nutation J: short axis from the angular momentum", loc="left")
-    axes.margins(x=0)
+    axes.plot(clock.values, 1e6 * angle if tiny else np.degrees(angle), color=BLUE)
+    axes.set_ylabel("J [μrad]" if tiny else "J [deg]")
+    axes.set_title(f"Nutation J: {axis.replace('-', ' ')} from the angular momentum", loc="left")
+    clock.finish(axes)
     return axes
 
 
-def angles(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None, *, residual: bool = True) -> Axes:
+def angles(
+    motion: Motion,
+    times: ArrayLike | None = None,
+    axes: Axes | None = None,
+    *,
+    residual: bool = True,
+    axis: str = "short-axis",
+    time_unit: str | None = None,
+) -> Axes:
     """Draw Andoyer's angles μ and ν over time without their mean motion, or ν itself.
 
     Parameters
     ----------
     motion : Motion
     times : array_like, shape (n,), optional
-        Times [s]. By default three periods of the polhode. Each turn of an angle needs more than two times.
+        As in `nutation`. Each turn of an angle needs more than two times.
     axes : matplotlib.axes.Axes, optional
     residual : bool, optional
+    axis, time_unit
+        As in `nutation`; about the long axis ν is the rotation about it, and μ its precession.
     """
-    axes, times = _axes(axes), _times(motion, times)
-    variables = motion.andoyer(times)
-    elapsed, label, _ = _clock(times)
-    mu, mu_rate, mu_all = _without_mean(variables[:, 1], times)
-    nu, nu_rate, nu_all = _without_mean(variables[:, 2], times)
+    axes, times = _axes(axes), chosen(motion, times)
+    clock = clock_of(motion, times, time_unit)
+    of_mu, of_nu = (without_mean(angle, times) for angle in precession_and_spin(motion, times, axis))
     if residual:
-        axes.plot(elapsed, np.degrees(mu), color=VERMILION, linestyle="--", label="μ")
-        axes.plot(elapsed, np.degrees(nu), color=BLUE, label="ν")
+        axes.plot(clock.values, np.degrees(of_mu[0]), color=VERMILION, linestyle="--", label="μ")
+        axes.plot(clock.values, np.degrees(of_nu[0]), color=BLUE, label="ν")
         axes.set_ylabel("[deg]")
-        if max(np.ptp(mu), np.ptp(nu)) < STEADY:
+        if max(np.ptp(of_mu[0]), np.ptp(of_nu[0])) < STEADY:
             axes.set_ylim(-1e-6, 1e-6)
         axes.set_title("μ and ν less their mean motion", loc="left")
         _legend(axes)
     else:
-        axes.plot(elapsed, np.degrees(nu_all), color=BLUE)
-        if np.ptp(nu_all) > 2 * np.pi:
-            axes.yaxis.set_major_locator(plt.MultipleLocator(360 * math.ceil(np.ptp(nu_all) / (8 * math.pi))))
+        nu = of_nu[2]
+        axes.plot(clock.values, np.degrees(nu), color=BLUE)
+        if np.ptp(nu) > 2 * np.pi:
+            axes.yaxis.set_major_locator(plt.MultipleLocator(360 * math.ceil(np.ptp(nu) / (8 * math.pi))))
         axes.set_ylabel("ν [deg]")
-        axes.set_title(f"ν: period {_period(nu_all, nu_rate)}, μ: period {_period(mu_all, mu_rate)}", loc="left")
-    axes.set_xlabel(label)
-    axes.margins(x=0)
+        axes.set_title(f"ν: period {_period(of_nu, clock)}, μ: period {_period(of_mu, clock)}", loc="left")
+    clock.finish(axes)
     return axes
 
 
-def rates(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
-    """Draw the angular velocity about the body axes over time. If J is tiny, the rate about the short axis is a text."""
-    axes, times = _axes(axes), _times(motion, times)
-    numbers, _, directions = _sorted(motion, times)
+def rates(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None, *, axis: str = "short-axis", time_unit: str | None = None) -> Axes:
+    """Draw the angular velocity about the body axes over time. If J is tiny, the rate about `axis` is a text. Arguments are as in `nutation`."""
+    axes, times = _axes(axes), chosen(motion, times)
+    numbers, _, directions = about(motion, times, axis)
     values = motion.angular_velocity(times)
-    elapsed, label, (unit, seconds) = _clock(times)
-    tiny = _nutation(directions).max() < TINY
-    unit, scale = (f"μrad/{unit}", 1e6 * seconds) if tiny else (f"deg/{unit}", np.degrees(seconds))
+    clock = clock_of(motion, times, time_unit)
+    tiny = nutation_angle(directions).max() < TINY
+    unit, scale = (f"μrad{clock.per}", 1e6 * clock.seconds) if tiny else (f"deg{clock.per}", np.degrees(clock.seconds))
     styles = ((BLUE, "-"), (VERMILION, "--"), (GREEN, "-."))
     drawn = sorted(numbers[:2]) if tiny else [0, 1, 2]
-    for axis in drawn:
-        color, style = styles[axis]
-        axes.plot(elapsed, scale * values[:, axis], color=color, linestyle=style, label=f"ω{axis + 1}")
-    steady = f", ω{numbers[2] + 1} = {values[:, numbers[2]].mean():.6g} rad/s" if tiny else ""
-    axes.set(xlabel=label, ylabel=f"[{unit}]")
+    for number in drawn:
+        color, style = styles[number]
+        axes.plot(clock.values, scale * values[:, number], color=color, linestyle=style, label=f"ω{number + 1}")
+    steady = f", ω{numbers[2] + 1} = {values[:, numbers[2]].mean() * clock.seconds:.6g} rad{clock.per}" if tiny else ""
+    axes.set_ylabel(f"[{unit}]")
     axes.set_title(f"Body rates{steady}", loc="left")
-    axes.margins(x=0)
+    clock.finish(axes)
     _legend(axes)
     return axes
 
 
-def summary(motion: Motion, times: ArrayLike | None = None) -> Figure:
+def summary(motion: Motion, times: ArrayLike | None = None, *, time_unit: str | None = None) -> Figure:
     """Draw a figure of a motion: polhode, phase portrait (the path near the pole if J is tiny, the inertial path of the pole under a torque), nutation, angles, rates.
 
-    The labels assume times in seconds and show hours or days for long spans. The default times are three periods of the polhode.
+    The panels are about the axis that the angular momentum circles at the epoch: the short axis, or the long axis of a body in a long-axis mode. The default times are three periods of the
+    polhode, or the whole span of a motion that is not periodic.
+
+    Parameters
+    ----------
+    motion, times, time_unit
+        As in `nutation`.
     """
-    times = _times(motion, times)
-    scene = motion.scene
-    tiny = _nutation(_sorted(motion, times)[2]).max() < TINY
+    times = chosen(motion, times)
+    scene, axis = motion.scene, mode_axis(motion)
+    tiny = nutation_angle(about(motion, times, axis)[2]).max() < TINY
     with plt.rc_context(STYLE):
         figure: Figure = plt.figure(figsize=(13, 9), layout="constrained")
         figure.suptitle(scene.name or scene.body.name or "", fontsize=15, fontweight="bold")
         grid = figure.add_gridspec(4, 2, width_ratios=(1, 1.25))
         polhode(motion, figure.add_subplot(grid[:2, 0]))
         lower = figure.add_subplot(grid[2:, 0])
-        if scene.orbit is not None:
+        if scene.orbit is not None or scene.torques:
             pole_path(motion, axes=lower)
         else:
-            (polhode_near_pole if tiny else phase_portrait)(motion, times, lower)
+            (polhode_near_pole if tiny else phase_portrait)(motion, times, lower, axis=axis)
         panels = [figure.add_subplot(grid[0, 1])]
         panels += [figure.add_subplot(grid[row, 1], sharex=panels[0]) for row in (1, 2, 3)]
-        nutation(motion, times, panels[0])
-        angles(motion, times, panels[1], residual=False)
-        angles(motion, times, panels[2])
-        rates(motion, times, panels[3])
+        nutation(motion, times, panels[0], axis=axis, time_unit=time_unit)
+        angles(motion, times, panels[1], residual=False, axis=axis, time_unit=time_unit)
+        angles(motion, times, panels[2], axis=axis, time_unit=time_unit)
+        rates(motion, times, panels[3], axis=axis, time_unit=time_unit)
         for panel in panels[:3]:
             panel.set_xlabel("")
             panel.tick_params(labelbottom=False)
+            panel.xaxis.get_offset_text().set_visible(False)
         figure.align_ylabels(panels)
     return figure
 
 
-def samples_summary(samples: Samples, motion: Motion | None = None, *, name: str = "") -> Figure:
+def samples_summary(samples: Samples, motion: Motion | None = None, *, name: str = "", time_unit: str | None = None) -> Figure:
     """Draw a figure of the samples of a file: quaternions, rates and, if a motion is given, the angle between the samples and the motion.
 
     Parameters
     ----------
     samples : Samples
-        Times are taken to be in seconds.
     motion : Motion, optional
         The motion to compare with the samples.
     name : str, optional
         Title of the figure.
+    time_unit : str, optional
+        The name of the unit of the times. Samples with calendar times have dates instead.
     """
     with plt.rc_context(STYLE):
         figure: Figure = plt.figure(figsize=(11, 9 if motion else 6), layout="constrained")
         figure.suptitle(name, fontsize=15, fontweight="bold")
         panels = figure.subplots(3 if motion else 2, 1, sharex=True)
-        components(samples, panels[0])
-        sampled_rates(samples, panels[1])
+        components(samples, panels[0], time_unit=time_unit)
+        sampled_rates(samples, panels[1], time_unit=time_unit)
         if motion is not None:
-            difference(samples, motion, panels[2])
+            difference(samples, motion, panels[2], time_unit=time_unit)
         for panel in panels[:-1]:
             panel.set_xlabel("")
+            panel.xaxis.get_offset_text().set_visible(False)
         figure.align_ylabels(panels)
     return figure
 
@@ -298,53 +325,7 @@ def animate(motion: Motion, times: ArrayLike | None = None, *, interval: float =
     >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
     >>> plot.animate(motion, [0.0, 0.1, 0.2]).save("motion.gif", writer="pillow")
     """
-    return film(motion, whole_turns(motion, 1, 300) if times is None else np.atleast_1d(np.asarray(times, dtype=float)), interval)
-
-
-def _times(motion: Motion, times: ArrayLike | None) -> Array:
-    return whole_turns(motion) if times is None else np.asarray(times, dtype=float)
-
-
-def _sorted(motion: Motion, times: Array) -> tuple[list[int], Array, Array]:
-    """The user's axes of moments A, B, C; these moments; directions of the momentum on them, axis 1 reversed as `Motion.andoyer` has it.
-
-    The directions of a body at rest are NaN, which matplotlib does not draw.
-    """
-    body = motion.scene.body
-    moments = body.moments
-    order = np.argsort(moments, kind="stable")
-    momentum = (moments * (motion.angular_velocity(times) @ body.principal_axes))[:, order]
-    if _left_handed(order):
-        momentum[:, 0] *= -1
-    sizes = np.linalg.norm(momentum, axis=1, keepdims=True)
-    return [int(axis) for axis in order], moments[order], momentum / np.where(sizes > 0, sizes, np.nan)
-
-
-def _left_handed(order: Any) -> bool:
-    return bool(np.linalg.det(np.eye(3)[order]) < 0)
-
-
-def _names(numbers: list[int]) -> list[str]:
-    """The numbers of the user's axes with moments A, B, C; a minus marks a reversed axis 1."""
-    names = [str(number + 1) for number in numbers]
-    return [f"−{names[0]}", *names[1:]] if _left_handed(numbers) else names
-
-
-def _nutation(directions: Array) -> Array:
-    """J from the components perpendicular to axis 3, because the arccosine of N/M is inaccurate for small J."""
-    angle: Array = np.arctan2(np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2])
-    return angle
-
-
-def _without_mean(angle: Array, times: Array) -> tuple[Array, float, Array]:
-    """An angle [rad] less its mean motion, the mean motion [rad/s], the angle unwrapped.
-
-    `times` span whole periods of the polhode, and sample every turn of the angle more than twice.
-    """
-    unwrapped = np.unwrap(angle)
-    slope = (unwrapped[-1] - unwrapped[0]) / (times[-1] - times[0])
-    rest = unwrapped - slope * (times - times[0])
-    return rest - rest.mean(), slope, unwrapped
+    return film(motion, whole_turns(motion, 1, 300) if times is None else np.atleast_1d(chosen(motion, times)), interval)
 
 
 def _legend(axes: Axes) -> None:
@@ -352,13 +333,12 @@ def _legend(axes: Axes) -> None:
     axes.legend(loc="lower right", bbox_to_anchor=(1, 0.98), ncols=3, fontsize=9, frameon=False)
 
 
-def _period(unwrapped: Array, rate: float) -> str:
-    """The period of an angle of that mean motion, in seconds, hours or days, with its sense."""
+def _period(angle: tuple[Array, float, Array], clock: Clock) -> str:
+    """The period of an angle less its mean motion, its mean motion and itself unwrapped, with its sense."""
+    _, rate, unwrapped = angle
     if np.ptp(unwrapped) < STEADY:
         return "none (constant)"
-    if abs(unwrapped[-1] - unwrapped[0]) < np.pi:
+    if is_still(unwrapped):
         return "none (libration)"
-    seconds = 2 * np.pi / abs(rate)
-    unit, size = ("d", 86400) if seconds > 30 * 86400 else ("h", 3600) if seconds > 1800 else ("s", 1)
-    value = f"{seconds / size:.5g} {unit}"
+    value = clock.period(2 * np.pi / abs(rate))
     return value if rate > 0 else f"{value} retrograde"

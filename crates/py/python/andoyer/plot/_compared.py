@@ -10,6 +10,7 @@ from andoyer._refusal import refusal
 from andoyer.output.rows import rows
 from andoyer.plot._diagrams import axes_or_new
 from andoyer.plot._style import BLACK, BLUE, GREEN, VERMILION, Array
+from andoyer.plot._time import Clock, clock
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,7 +22,7 @@ LEAST_ANGLE = 1e-17
 """An angle of zero [rad] is drawn here on the logarithmic axis."""
 
 
-def components(samples: Samples, axes: "Axes | None" = None) -> "Axes":
+def components(samples: Samples, axes: "Axes | None" = None, *, time_unit: str | None = None) -> "Axes":
     """Draw the components of the quaternions over time. The sign of each quaternion is chosen so that the curves are continuous.
 
     Parameters
@@ -30,40 +31,42 @@ def components(samples: Samples, axes: "Axes | None" = None) -> "Axes":
         Samples of one motion, or of a file.
     axes : matplotlib.axes.Axes, optional
         Axes to draw into; by default those of a new figure.
+    time_unit : str, optional
+        The name of the unit of the times. Samples with calendar times have dates instead.
     """
     axes = axes_or_new(axes)
     table = rows(samples)
-    elapsed, label, _ = clock(table[:, 0])
+    time = _clock(samples, table[:, 0], time_unit)
     attitude = table[:, 1:5]
     turned = np.sum(attitude[1:] * attitude[:-1], axis=1) < 0
     attitude = attitude * np.where(np.concatenate([[False], np.cumsum(turned) % 2 == 1]), -1.0, 1.0)[:, None]
     for name, values, (color, dash) in zip("xyzw", attitude.T, LINES):
-        axes.plot(elapsed, values, color=color, linestyle=dash, label=f"q{name}")
-    axes.set(xlabel=label, ylabel="quaternion [1]")
+        axes.plot(time.values, values, color=color, linestyle=dash, label=f"q{name}")
+    axes.set(ylabel="quaternion [1]")
     axes.set_title("Attitude: quaternion, body to inertial", loc="left")
-    return _finished(axes)
+    return _finished(axes, time)
 
 
-def sampled_rates(samples: Samples, axes: "Axes | None" = None) -> "Axes":
+def sampled_rates(samples: Samples, axes: "Axes | None" = None, *, time_unit: str | None = None) -> "Axes":
     """Draw the angular velocities about the body axes over time.
 
     Parameters
     ----------
-    samples, axes
+    samples, axes, time_unit
         As in `components`.
     """
     axes = axes_or_new(axes)
     table = rows(samples)
-    elapsed, label, (unit, seconds) = clock(table[:, 0])
+    time = _clock(samples, table[:, 0], time_unit)
     missing = bool(np.isnan(table[:, 5:]).any())
     for axis, (color, dash) in enumerate(LINES[:3]):
-        axes.plot(elapsed, np.degrees(table[:, 5 + axis]) * seconds, color=color, linestyle=dash, label=f"ω{axis + 1}")
-    axes.set(xlabel=label, ylabel=f"[deg/{unit}]")
+        axes.plot(time.values, np.degrees(table[:, 5 + axis]) * time.seconds, color=color, linestyle=dash, label=f"ω{axis + 1}")
+    axes.set(ylabel=f"[deg{time.per}]")
     axes.set_title("Body rates: the file has none" if missing else "Body rates", loc="left")
-    return _finished(axes)
+    return _finished(axes, time)
 
 
-def difference(samples: Samples, motion: Motion | Samples, axes: "Axes | None" = None) -> "Axes":
+def difference(samples: Samples, motion: Motion | Samples, axes: "Axes | None" = None, *, time_unit: str | None = None) -> "Axes":
     """Draw the angle between samples and a motion over time, on a logarithmic axis.
 
     Parameters
@@ -74,6 +77,8 @@ def difference(samples: Samples, motion: Motion | Samples, axes: "Axes | None" =
         A motion, evaluated at the times of `samples`, or other samples at the same times.
     axes : matplotlib.axes.Axes, optional
         Axes to draw into; by default those of a new figure.
+    time_unit : str, optional
+        The name of the unit of the times. Samples with calendar times have dates instead.
 
     Raises
     ------
@@ -82,12 +87,12 @@ def difference(samples: Samples, motion: Motion | Samples, axes: "Axes | None" =
     """
     axes = axes_or_new(axes)
     table = rows(samples)
-    elapsed, label, _ = clock(table[:, 0])
+    time = _clock(samples, table[:, 0], time_unit)
     angle = angles_between(samples, motion)
-    axes.semilogy(elapsed, np.maximum(angle, LEAST_ANGLE), color=BLUE)
-    axes.set(xlabel=label, ylabel="angle between [rad]")
+    axes.semilogy(time.values, np.maximum(angle, LEAST_ANGLE), color=BLUE)
+    axes.set(ylabel="angle between [rad]")
     axes.set_title(f"Angle between the file and the scene: {angle.max():.3g} rad at most, median {np.median(angle):.3g}", loc="left")
-    axes.margins(x=0)
+    time.finish(axes)
     return axes
 
 
@@ -108,14 +113,12 @@ def _at(motion: Motion, samples: Samples, times: Array) -> Samples:
         return motion.at(times)
 
 
-def clock(times: Array) -> tuple[Array, str, tuple[str, float]]:
-    """Times since the first one in seconds, hours or days, the axis label, and the unit of time of rates with its seconds."""
-    elapsed = times - times[0]
-    unit, seconds = ("d", 86400) if elapsed[-1] > 30 * 86400 else ("h", 3600) if elapsed[-1] > 7200 else ("s", 1)
-    return elapsed / seconds, f"time [{unit}]", ("s", 1.0) if unit == "s" else ("h", 3600.0)
+def _clock(samples: Samples, times: Array, time_unit: str | None) -> Clock:
+    """The time axis of samples: dates if their times are calendar times."""
+    return clock(times, hasattr(samples.times, "jd1") and hasattr(samples.times, "tdb"), time_unit)
 
 
-def _finished(axes: "Axes") -> "Axes":
-    axes.margins(x=0)
+def _finished(axes: "Axes", time: Clock) -> "Axes":
+    time.finish(axes)
     axes.legend(loc="lower right", bbox_to_anchor=(1, 0.98), ncols=4, fontsize=9, frameon=False)
     return axes

@@ -8,6 +8,7 @@ from andoyer._core import Motion
 from andoyer._extra import extra
 from andoyer._quaternions import rotate
 from andoyer.plot._style import BLACK, BLUE, GREEN, VERMILION, Array
+from andoyer.plot._time import clock_of
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -37,6 +38,9 @@ def film(motion: Motion, times: Array, interval: float) -> "FuncAnimation":
     clock = axes.text2D(0.02, 0.97, "", transform=axes.transAxes, color=BLACK)
     axes.legend(loc="lower right", fontsize=9, frameon=False)
 
+    drawn = clock_of(motion, times, None).values
+    stamps = drawn.astype("datetime64[ms]").astype(str) if drawn.dtype.kind == "M" else [f"t = {time:.6g}" for time in drawn]
+
     def show(frame: int) -> list[Any]:
         attitude = samples.attitude[frame]
         for axis, line in zip(np.eye(3), lines):
@@ -44,7 +48,7 @@ def film(motion: Motion, times: Array, interval: float) -> "FuncAnimation":
         _set(rate, np.array([np.zeros(3), paths[frame]]))
         _set(herpolhode, paths[: frame + 1])
         _set(polhode, rotate(np.broadcast_to(attitude, samples.attitude.shape), rates) @ upright.T)
-        clock.set_text(f"t = {times[frame]:.6g}")
+        clock.set_text(stamps[frame])
         return [*lines, rate, herpolhode, polhode, clock]
 
     made: FuncAnimation = animation.FuncAnimation(figure, show, frames=len(times), interval=interval, blit=False)

@@ -1,4 +1,4 @@
-"""Pictures of a libration: its angles over time, and the spectrum of its terms. Times and periods are in orbits, whatever the unit of time of the scene."""
+"""Pictures of a libration: its angles over time, and the spectrum of its terms. Periods are in orbits, whatever the unit of time of the scene; so are times, unless the epoch is a date."""
 
 from __future__ import annotations
 
@@ -11,9 +11,11 @@ from numpy.typing import ArrayLike
 from andoyer._core import Libration, LibrationTerm, Motion
 from andoyer._extra import extra
 from andoyer._refusal import refusal
+from andoyer.interop._foreign import plain
 from andoyer.output.span import within_span
 from andoyer.plot._diagrams import axes_or_new
 from andoyer.plot._style import ARCSECOND, BLACK, BLUE, GREEN, GREY, STYLE, VERMILION, Array
+from andoyer.plot._time import clock_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,7 +31,7 @@ ROUNDING = 1e-9
 """Part of the largest amplitude below which a term is not drawn."""
 
 
-def librations(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
+def librations(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None, *, time_unit: str | None = None) -> Axes:
     """Draw the libration in longitude over time: the angle ψ of the long axis from the direction that turns with the resonance.
 
     Parameters
@@ -40,6 +42,8 @@ def librations(motion: Motion, times: ArrayLike | None = None, axes: Axes | None
         Times in the unit of the scene. By default two proper periods in longitude from the epoch, at least five orbits.
     axes : matplotlib.axes.Axes, optional
         Axes to draw into; by default those of a new figure.
+    time_unit : str, optional
+        The name of the unit of time of the scene, for an axis in this unit instead of orbits. A scene with a calendar epoch has dates.
 
     Raises
     ------
@@ -47,17 +51,17 @@ def librations(motion: Motion, times: ArrayLike | None = None, axes: Axes | None
         The motion is not a libration (``motion.libration`` is None).
     """
     axes = axes_or_new(axes)
-    _angles(motion, times, axes, ["longitude"])
+    _angles(motion, times, axes, ["longitude"], time_unit)
     axes.set_title("Libration in longitude", loc="left")
     return axes
 
 
-def pole_librations(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
+def pole_librations(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None, *, time_unit: str | None = None) -> Axes:
     """Draw the libration of the pole over time: θ about the intermediate axis, and φ about the long axis.
 
     Parameters
     ----------
-    motion, times, axes
+    motion, times, axes, time_unit
         As in `librations`.
 
     Raises
@@ -66,7 +70,7 @@ def pole_librations(motion: Motion, times: ArrayLike | None = None, axes: Axes |
         The motion is not a libration.
     """
     axes = axes_or_new(axes)
-    _angles(motion, times, axes, ["pole-1", "pole-2"])
+    _angles(motion, times, axes, ["pole-1", "pole-2"], time_unit)
     axes.set_title("Libration of the pole", loc="left")
     axes.legend(loc="lower right", bbox_to_anchor=(1, 0.98), ncols=2, fontsize=9, frameon=False)
     return axes
@@ -117,12 +121,12 @@ def libration_spectrum(motion: Motion, axes: Axes | None = None) -> Axes:
     return axes
 
 
-def libration_summary(motion: Motion, times: ArrayLike | None = None) -> Figure:
+def libration_summary(motion: Motion, times: ArrayLike | None = None, *, time_unit: str | None = None) -> Figure:
     """Draw a figure of a libration: longitude and pole over time, and the spectrum.
 
     Parameters
     ----------
-    motion, times
+    motion, times, time_unit
         As in `librations`.
 
     Raises
@@ -138,11 +142,12 @@ def libration_summary(motion: Motion, times: ArrayLike | None = None) -> Figure:
         grid = figure.add_gridspec(3, 1, height_ratios=(1, 1, 1.5))
         upper = figure.add_subplot(grid[0])
         lower = figure.add_subplot(grid[1], sharex=upper)
-        librations(motion, times, upper)
-        pole_librations(motion, times, lower)
+        librations(motion, times, upper, time_unit=time_unit)
+        pole_librations(motion, times, lower, time_unit=time_unit)
         libration_spectrum(motion, figure.add_subplot(grid[2]))
         upper.set_xlabel("")
         upper.tick_params(labelbottom=False)
+        upper.xaxis.get_offset_text().set_visible(False)
     return figure
 
 
@@ -155,23 +160,26 @@ def _locked(motion: Motion) -> tuple[Libration, float]:
     return libration, 2 * math.pi / libration.mean_motion
 
 
-def _angles(motion: Motion, times: ArrayLike | None, axes: Axes, names: list[str]) -> None:
+def _angles(motion: Motion, times: ArrayLike | None, axes: Axes, names: list[str], time_unit: str | None) -> None:
     libration, orbit = _locked(motion)
     epoch = motion.scene.epoch
     if times is None:
         span = max(SWINGS * libration.periods[0], LEAST_ORBITS * orbit)
         times = np.linspace(*within_span(motion, epoch, epoch + span), SAMPLES)
-    instants = np.atleast_1d(np.asarray(times, dtype=float))
+    instants = np.atleast_1d(np.asarray(plain("times", times), dtype=float))
     if not np.isfinite(instants).all():
         raise refusal("times", times, "finite numbers", "must be finite")
     values = {name: _sum([term for term in libration.terms() if term.angle == name], instants - epoch) for name in names}
+    clock = clock_of(motion, instants, time_unit)
+    if not clock.dated and time_unit is None:
+        clock = clock._replace(values=(instants - epoch) / orbit, label="time from the epoch [orbits]")
     size, unit = _unit(max((float(np.abs(value).max()) for value in values.values() if value.size), default=0.0))
     for name, value in values.items():
         color, dash, _, letter = LINES[name]
-        axes.plot((instants - epoch) / orbit, value / size, color=color, linestyle=dash, linewidth=1.2, label=letter)
-    axes.set(xlabel="time from the epoch [orbits]", ylabel=f"{', '.join(LINES[name][3] for name in names)} [{unit}]")
-    axes.ticklabel_format(useOffset=False)
-    axes.margins(x=0)
+        axes.plot(clock.values, value / size, color=color, linestyle=dash, linewidth=1.2, label=letter)
+    axes.set_ylabel(f"{', '.join(LINES[name][3] for name in names)} [{unit}]")
+    axes.ticklabel_format(axis="y", useOffset=False)
+    clock.finish(axes)
 
 
 def _sum(terms: list[LibrationTerm], elapsed: Array) -> Array:
