@@ -132,7 +132,7 @@ def rows(path: Path, out: Path) -> Iterator[tuple[list[str], bool]]:
     reference = TorqueFree(scene.body.moments, scene.attitude, scene.angular_velocity, epoch=scene.epoch)
     motion = scene.solve()
     times = picture_times(reference, span_of(scene))
-    plot.summary(motion, times).savefig(out / f"{path.stem}.png", dpi=130)
+    plot.summary(motion, times, time_unit="s").savefig(out / f"{path.stem}.png", dpi=130)
     for method in METHODS:
         if scene.orbit is not None and method == "series":
             continue  # a scene with an orbit has no series

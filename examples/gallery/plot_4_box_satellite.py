@@ -49,5 +49,5 @@ assert abs(turned / expected - 1) < 0.02
 # %%
 # `plot.summary` shows the whole motion in one figure.
 
-plot.summary(motion)
+plot.summary(motion, time_unit="s")
 plt.show()
