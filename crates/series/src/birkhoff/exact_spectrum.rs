@@ -7,7 +7,7 @@
 //! the right one.
 
 use super::matrix::Matrix;
-use super::spectrum::eigenvalues as float_eigenvalues;
+use super::schur::eigenvalues as float_eigenvalues;
 use super::univariate::{RealRoot, Univariate};
 use num_bigint::BigInt;
 use num_integer::Integer;

@@ -17,7 +17,7 @@ use crate::birkhoff::PhaseSpace;
 use crate::birkhoff::diagonal::Diagonal;
 use crate::birkhoff::matrix::{Matrix, pairing, transposed, turned_rows};
 use crate::birkhoff::mode::Mode;
-use crate::birkhoff::spectrum::eigenvalues as spectrum;
+use crate::birkhoff::schur::eigenvalues as spectrum;
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
