@@ -4,20 +4,20 @@
 
 mod duration;
 mod place;
+mod sentences;
 mod torque_measure;
-mod words;
 
 use Kind::{File, Input, Internal, Representation, Theory};
 use andoyer_series::error::{Facts, Short, facts};
 pub use andoyer_series::error::{Kind, Value};
 pub(crate) use duration::duration_in_words;
-pub use torque_measure::TorqueMeasure;
 #[cfg(all(test, feature = "torques"))]
-pub(crate) use words::STEP_BYTES;
-use words::{
+pub(crate) use sentences::STEP_BYTES;
+use sentences::{
     advice, and_others, because, did_you_mean, distance, elsewhere, finite, four_digits, instead_of, rounded_up,
     setting, slow, too_many, turn, unaveraged,
 };
+pub use torque_measure::TorqueMeasure;
 
 const POSITIVE: &str = "positive and finite";
 

@@ -1,6 +1,6 @@
 //! What an error about the strength of a torque measures.
 
-use super::words::four_digits;
+use super::sentences::four_digits;
 
 /// What shows that a torque is too strong for an expansion in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
