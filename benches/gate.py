@@ -23,7 +23,18 @@ INSTRUCTION_SETS = {"avx2", "fma"}
 FILE = Path(__file__).with_name("instructions.json")
 GROWTH = 1.05
 # Repeats of each kernel: few, since valgrind is fifty times slower.
-KERNELS = {"normalize": 2, "numeric": 2, "solve-closed": 2, "solve-series": 1, "evaluate": 4, "integrate": 2, "member": 1, "derivatives": 1, "libration": 1, "periodic": 1}
+KERNELS = {
+    "normalize": 2,
+    "numeric": 2,
+    "solve-closed": 2,
+    "solve-series": 1,
+    "evaluate": 4,
+    "integrate": 2,
+    "member": 1,
+    "derivatives": 1,
+    "libration": 1,
+    "periodic": 1,
+}
 
 
 def lacking(processor):
