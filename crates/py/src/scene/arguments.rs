@@ -54,10 +54,11 @@ pub(super) fn near(
     if let Some(options) = options
         && let Some(given) = options.get_item("scalar_first")?
     {
-        scalar_first = given.extract::<bool>()? && !foreign::is_rotation(attitude)?;
+        scalar_first = given.extract()?;
         options.del_item("scalar_first")?;
     }
-    let mut quaternion = array::fixed("attitude", attitude)?;
+    let (attitude, scalar_first) = foreign::attitudes("attitude", attitude, scalar_first)?;
+    let mut quaternion = array::fixed("attitude", &attitude)?;
     foreign::scalar_last(&mut quaternion, scalar_first);
     let state = State::new(0.0, quaternion, [0.0; 3]).map_err(error::propagation)?;
     Ok(Some(state.attitude))
