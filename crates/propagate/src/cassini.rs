@@ -84,7 +84,7 @@ pub fn cassini_states(body: &Body, orbit: &Orbit, spin_rate: f64) -> Result<Vec<
         let bound = "less than 1: a hyperbola has no mean torque";
         return Err(Error::Orbit { argument: "eccentricity", value: orbit.eccentricity(), bound });
     }
-    orbit.representable()?;
+    orbit.representable(0)?;
     let top = Top::new(body, orbit, spin_rate);
     let extremes = roots(&evenly(), |theta| top.curvatures(theta)[0]);
     let places = if extremes.is_empty() { evenly() } else { extremes };

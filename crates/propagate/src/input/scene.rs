@@ -7,6 +7,7 @@ use super::options::{Averaging, Level, MAX_ORDER, Method};
 use super::state::State;
 use super::torque::Torque;
 use crate::error::Error;
+use crate::numerics::scaling::exponent;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
 
@@ -277,7 +278,10 @@ impl Scene {
         {
             return Err(Error::Span { start, stop });
         }
-        self.disturbing.iter().try_for_each(DisturbingBody::validate)?;
+        let rate = self.state.angular_velocity.amax();
+        // A body at rest has the unit of the user.
+        let unit = if rate > 0.0 { exponent(rate) } else { 0 };
+        self.disturbing.iter().try_for_each(|body| body.validate(unit))?;
         self.torques.iter().try_for_each(Torque::validate)
     }
 }

@@ -26,7 +26,7 @@ impl PathSeries {
     pub(super) fn new(body: &DisturbingBody, epoch: f64, exponent: i32) -> Self {
         match body {
             DisturbingBody::Orbit(orbit) => {
-                let strength = scaled((2.0 * strength(orbit.strength())).sqrt(), -exponent);
+                let strength = (2.0 * strength(orbit.strength_in(exponent))).sqrt();
                 Self::of_orbit(orbit, (epoch, exponent), (strength, GRAVITY))
             }
             DisturbingBody::Tabulated(table) => {

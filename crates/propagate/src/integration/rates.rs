@@ -4,6 +4,7 @@ use super::torques::falls;
 use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::input::torque::{SourcePath, Torque};
+use crate::numerics::scaling::{exponent, scaled};
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
 use crate::orbit::table::TabulatedOrbit;
@@ -70,7 +71,9 @@ pub(super) fn too_coarse(scene: &Scene, [start, stop]: [f64; 2]) -> Option<Error
 /// The fastest rate that an orbit brings in, and the torque's √(3μ/ρ³) at the apocentre, or where a hyperbola is farthest within the span.
 pub(super) fn rates_of_orbit(orbit: &Orbit, ends: [f64; 2]) -> (f64, f64) {
     let e = orbit.eccentricity();
-    let strength = (2.0 * strength(orbit.strength())).sqrt();
+    // In a unit in which the square of the mean motion is a normal double.
+    let unit = exponent(orbit.mean_motion());
+    let strength = scaled((2.0 * strength(orbit.strength_in(unit))).sqrt(), unit);
     let near = (1.0 - e).abs().powf(-1.5);
     let farthest = if orbit.is_hyperbola() {
         ends.map(|end| orbit.hyperbolic_distance(end)).into_iter().fold(e - 1.0, f64::max)

@@ -17,11 +17,11 @@ pub enum DisturbingBody {
 }
 
 impl DisturbingBody {
-    /// Whether doubles hold the torque that it exerts.
-    pub(crate) fn validate(&self) -> Result<(), Error> {
+    /// Whether doubles hold the torque that it exerts, in a unit of time of 2^−exponent.
+    pub(crate) fn validate(&self, exponent: i32) -> Result<(), Error> {
         match self {
-            Self::Orbit(orbit) => orbit.representable(),
-            Self::Tabulated(table) => table.representable(),
+            Self::Orbit(orbit) => orbit.representable(exponent),
+            Self::Tabulated(table) => table.representable(exponent),
         }
     }
 }

@@ -10,6 +10,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::Error;
 use crate::numerics::phase::Phase;
+use crate::numerics::scaling::scaled;
 use crate::orbit::conic::true_anomaly;
 use crate::orbit::hyperbola::hyperbolic_anomaly;
 use crate::orbit::kepler::Place;
@@ -23,7 +24,7 @@ const LONGEST: f64 = 1e300;
 
 pub(super) const POSITIVE: &str = "positive and finite";
 /// The bound in words of what scales the torque of a body on an orbit.
-const REPRESENTABLE: &str = "such that the attraction, mean_motion^2 * mass_fraction unless given, and its quotient by mean_motion^2 are normal doubles";
+const REPRESENTABLE: &str = "such that the attraction in units of the rotation rate, mean_motion^2 * mass_fraction unless given, and its quotient by mean_motion^2 are normal doubles";
 
 /// Largest eccentricity. Powers of the distance do not overflow.
 const MOST_ECCENTRIC: f64 = 1e50;
@@ -394,12 +395,20 @@ impl Orbit {
         self.mean_motion.max(self.node_rate.abs()).max(self.pericentre_rate.abs())
     }
 
-    /// Checks that three times the attraction G m/a³, and the attraction over n², are normal doubles: equations of motion have both.
-    pub(crate) fn representable(&self) -> Result<(), Error> {
-        let holds = [self.strength(), 3.0 * self.strength(), self.disturbing_fraction()].iter().all(|x| x.is_normal());
+    /// The attraction G m/a³ in a unit of time of 2^−exponent.
+    pub(crate) fn strength_in(&self, exponent: i32) -> f64 {
+        let rate = scaled(self.mean_motion, -exponent);
+        let given = self.attraction.map(|attraction| scaled(scaled(attraction, -exponent), -exponent));
+        given.unwrap_or(rate * rate * self.mass_fraction)
+    }
+
+    /// Checks that three times the attraction G m/a³ in a unit of time, and the attraction over n², are normal doubles: equations of motion have both.
+    pub(crate) fn representable(&self, exponent: i32) -> Result<(), Error> {
+        let strength = self.strength_in(exponent);
+        let holds = [strength, 3.0 * strength, self.disturbing_fraction()].iter().all(|x| x.is_normal());
         let (argument, value) = match self.attraction {
             Some(attraction) => ("attraction", attraction),
-            None if (self.mean_motion * self.mean_motion).is_normal() => ("mass_fraction", self.mass_fraction),
+            None if scaled(self.mean_motion, -exponent).powi(2).is_normal() => ("mass_fraction", self.mass_fraction),
             None => ("mean_motion", self.mean_motion),
         };
         check(argument, value, holds, REPRESENTABLE)

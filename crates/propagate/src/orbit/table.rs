@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use super::elements::{POSITIVE, check};
 use crate::error::Error;
+use crate::numerics::scaling::scaled;
 
 /// Number of times through whose positions a polynomial passes.
 pub(crate) const NODES: usize = 8;
@@ -155,14 +156,20 @@ impl TabulatedOrbit {
         intervals.max_by(|one, other| one.1.total_cmp(&other.1)).unwrap_or((0, 0.0))
     }
 
-    /// Checks that three times G m/r³ is a normal double at each position.
-    pub(crate) fn representable(&self) -> Result<(), Error> {
+    /// Checks that three times G m/r³ in a unit of time of 2^−exponent is a normal double at each position.
+    pub(crate) fn representable(&self, exponent: i32) -> Result<(), Error> {
         let attraction = |[x, y, z]: &[f64; 3]| {
             let distance = x.hypot(*y).hypot(*z);
-            3.0 * (self.gm / distance / distance / distance)
+            let root = scaled((self.gm / distance).sqrt() / distance, -exponent);
+            3.0 * (root * root)
         };
         let holds = self.positions.iter().all(|position| attraction(position).is_normal());
-        check("gm", self.gm, holds, "such that its quotient by the cube of each distance is a normal double")
+        check(
+            "gm",
+            self.gm,
+            holds,
+            "such that its quotient by the cube of each distance, in units of the rotation rate, is a normal double",
+        )
     }
 
     /// The first and the last time of the table.

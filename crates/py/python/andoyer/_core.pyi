@@ -917,7 +917,7 @@ class DrivenNormalForm:
     def to_normal(self, states: ArrayLike, time: ArrayLike | None = None) -> _Array:
         """Transforms states to the new variables, by iteration on the inverse of this transformation."""
     def from_normal(self, states: ArrayLike, time: ArrayLike | None = None) -> _Array:
-        """Transforms new variables to states. Shapes and input errors are those of `to_normal`."""
+        """Transforms new variables to states. Shapes and errors are those of `to_normal`."""
     def actions(self, states: ArrayLike, time: ArrayLike | None = None) -> _Array:
         """The actions of states, shape (n,) or (m, n). Along a motion they are almost constant. The errors are those of `to_normal`."""
     def frequency_map(self, actions: ArrayLike) -> _Array:
