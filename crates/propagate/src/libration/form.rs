@@ -25,7 +25,7 @@ const TAIL: [f64; 2] = [1e-4, 1e-13];
 /// The most products of terms in all forms of a solution that no order asks for: one core takes 1.7 s for them.
 pub(super) const MOST_PRODUCTS: f64 = 6e7;
 /// The cost of a step towards the periodic motion, in products at a time of the grid.
-const PRODUCTS_OF_A_STEP: f64 = 1e3;
+const PRODUCTS_OF_A_STEP: f64 = 6e3;
 /// A product of terms costs as much as so many more times of the grid.
 const TERM: usize = 16;
 
