@@ -103,7 +103,7 @@ fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libra
     for order in (wanted.order.unwrap_or(FIRST)..=highest).step_by(2) {
         made += form::products(&lock.shape, order, form.grid().times());
         if limited && made > MOST_PRODUCTS {
-            left_out = Some(of_order(order, &form, lock));
+            left_out = Some(of_order(order, made, &form));
             break;
         }
         form = match form::to_order(&form, &lock.shape, order, wanted.tolerance, stop) {
@@ -152,12 +152,11 @@ fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libra
     Ok(Err(if error < PI { format!("its error bound is {}; {limit}", bound_in_words(error)) } else { limit }))
 }
 
-/// Why an order is not tried: its cost.
-fn of_order(order: usize, form: &DrivenForm, lock: &Lock) -> String {
+/// Why an order is not tried: the products of all orders up to it.
+fn of_order(order: usize, products: f64, form: &DrivenForm) -> String {
     let times = form.grid().times();
-    let products = form::products(&lock.shape, order, times);
     let what =
-        format!("order {order} takes about {products:.1e} products of terms ({times} times of the orbit's phases)");
+        format!("orders to {order} take about {products:.1e} products of terms ({times} times of the orbit's phases)");
     costly(&what, MOST_PRODUCTS, order)
 }
 
