@@ -73,7 +73,7 @@ proptest! {
         let [lower, _] = body.period_ratios(mode, Convention::ExtremalAxis).expect("a mode");
         let stated = ObservedPeriods { mode, phases, ..ObservedPeriods::new(1.3, 1.3 * lower * beyond).towards(0.7, -0.4).expect("a latitude") };
         let extremal = if long { f64::min } else { f64::max };
-        let axis = moments.iter().position(|moment| *moment == moments.into_iter().reduce(extremal).unwrap()).expect("an axis");
+        let axis = moments.iter().position(|moment| *moment == moments.into_iter().reduce(extremal).expect("three moments")).expect("an axis");
         for sense in [1.0, -1.0] {
             let motion = scene(&body, &ObservedPeriods { sense: Some(sense), ..stated }).solve().expect("a motion");
             prop_assert!(motion.scene().state().angular_velocity[axis] * sense > 0.0);

@@ -1,21 +1,26 @@
-//! Polynomials in one unknown over the rationals: square-free parts, real roots by Sturm's theorem, sums of pairs of roots.
+//! Polynomials in one unknown over the rationals, and the Gaussian integers among their roots.
 //!
-//! Every step is exact. A monic polynomial with integer coefficients has only integers among its rational roots, so that an interval of length 1 holds one
-//! candidate. Sources: D. Y. Y. Yun, *On square-free decomposition algorithms* (SYMSAC 1976); H. Cohen, *A Course in Computational Algebraic Number Theory*
-//! (1993), §§ 3.6 and 4.1.
+//! Every answer is exact. A rational root of a monic polynomial with integer coefficients is an integer, and a root with rational parts is a Gaussian integer. A
+//! linear or quadratic polynomial is solved by its formula, a cubic one by the sign changes around one of its real roots. A quartic one has its roots in floats,
+//! from which Newton's iteration over the Gaussian integers ends at a root or at none. Sources: D. Y. Y. Yun, *On square-free decomposition algorithms*
+//! (SYMSAC 1976); H. Cohen, *A Course in Computational Algebraic Number Theory* (1993), § 3.6.
 
 use num_bigint::BigInt;
+use num_complex::Complex;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-/// Bisections of an interval of length 1 around an irrational root: its figure is right to a double's precision.
-const BISECTIONS: usize = 80;
+use super::schur::eigenvalues;
 
-/// A real root of a monic polynomial with integer coefficients.
-pub(super) enum RealRoot {
-    Integer(BigInt),
-    Irrational(f64),
+/// Most steps of Newton's iteration: the floats are near a root, and each step doubles the digits.
+const STEPS: usize = 64;
+
+/// A root of a monic polynomial with integer coefficients; of a complex pair that with Im > 0.
+pub(super) enum Root {
+    Gaussian(Complex<BigInt>),
+    /// A root that is none, to 16 digits at least.
+    Irrational(Complex<BigRational>),
 }
 
 /// The coefficients by ascending powers, without zeros at the end.
@@ -30,21 +35,8 @@ impl Univariate {
         Univariate(coefficients)
     }
 
-    /// x − root.
-    pub(super) fn factor(root: &BigInt) -> Self {
-        Univariate(vec![BigRational::from_integer(-root), BigRational::one()])
-    }
-
-    pub(super) fn degree(&self) -> usize {
+    fn degree(&self) -> usize {
         self.0.len().saturating_sub(1)
-    }
-
-    pub(super) fn coefficients(&self) -> &[BigRational] {
-        &self.0
-    }
-
-    fn value(&self, x: &BigRational) -> BigRational {
-        self.0.iter().rev().fold(BigRational::zero(), |sum, c| sum * x + c)
     }
 
     fn derivative(&self) -> Self {
@@ -69,12 +61,12 @@ impl Univariate {
         (Univariate::new(quotient), Univariate::new(rest))
     }
 
-    pub(super) fn quotient(&self, divisor: &Self) -> Self {
+    fn quotient(&self, divisor: &Self) -> Self {
         self.divided(divisor).0
     }
 
     /// The monic greatest common divisor.
-    pub(super) fn gcd(&self, other: &Self) -> Self {
+    fn gcd(&self, other: &Self) -> Self {
         let (mut a, mut b) = (self.clone(), other.clone());
         while !b.0.is_empty() {
             (a, b) = (b.clone(), a.divided(&b).1);
@@ -83,8 +75,8 @@ impl Univariate {
         Univariate(a.0.iter().map(|c| c / &last).collect())
     }
 
-    /// Square-free factors of a monic polynomial, each with the multiplicity of its roots (Yun).
-    pub(super) fn square_free(&self) -> Vec<(Self, usize)> {
+    /// Square-free factors of a monic polynomial, each with the multiplicity of its roots (Yun). Those of integer coefficients have integer coefficients (Gauss).
+    pub(super) fn square_free(&self) -> Vec<(Vec<BigInt>, usize)> {
         let derivative = self.derivative();
         let common = self.gcd(&derivative);
         let (mut rest, mut slope) = (self.quotient(&common), derivative.quotient(&common));
@@ -97,126 +89,159 @@ impl Univariate {
             let part = rest.gcd(&difference);
             (rest, slope) = (rest.quotient(&part), difference.quotient(&part));
             if part.degree() > 0 {
-                parts.push((part, multiplicity));
+                parts.push((part.0.iter().map(BigRational::to_integer).collect(), multiplicity));
             }
         }
         parts
     }
+}
 
-    /// The real roots of a monic square-free polynomial with integer coefficients, in ascending order.
-    pub(super) fn real_roots(&self) -> Vec<RealRoot> {
-        let mut chain = vec![self.clone(), self.derivative()];
-        while let [.., a, b] = chain.as_slice()
-            && b.degree() > 0
-        {
-            let rest = a.divided(b).1;
-            chain.push(Univariate(rest.0.iter().map(|c| -c).collect()));
-        }
-        // Cauchy: |x| ≤ 1 + max |c|.
-        let largest = self.0.iter().map(|c| c.abs().ceil().to_integer()).max().unwrap_or_default() + BigInt::one();
-        let mut roots = Vec::new();
-        isolate(&chain, -&largest, largest, &mut roots);
-        roots
-    }
-
-    /// The monic polynomial whose roots are the sums xᵢ + xⱼ, i < j, of the roots of this monic polynomial, from its power sums by Newton's identities.
-    pub(super) fn sums_of_pairs(&self) -> Self {
-        let pairs = self.degree() * (self.degree() - 1) / 2;
-        let own = self.power_sums(pairs);
-        let integer = |n: BigInt| BigRational::from_integer(n);
-        let power = |k: usize| {
-            let mut sum = -&own[k] * integer(BigInt::one() << k);
-            let mut binomial = BigInt::one();
-            for j in 0..=k {
-                sum += &own[j] * &own[k - j] * integer(binomial.clone());
-                binomial = binomial * BigInt::from(k - j) / BigInt::from(j + 1);
-            }
-            sum / integer(2.into())
+/// The roots of a monic square-free polynomial of degree 4 at most, up to the first one that is irrational.
+pub(super) fn roots(mut polynomial: Vec<BigInt>) -> Vec<Root> {
+    let mut found = Vec::new();
+    while polynomial.len() > 1 {
+        let root = match &polynomial[..] {
+            [c, _] => Root::Gaussian(Complex::new(-c, BigInt::zero())),
+            [c, b, _] => of_quadratic(b, c),
+            [.., _, _] if polynomial.len() == 4 => of_cubic(&polynomial),
+            _ => of_quartic(&polynomial),
         };
-        let powers: Vec<BigRational> = (0..=pairs).map(power).collect();
-        // k e_k = −Σ p_j e_{k−j}, where e_k is the coefficient of x^(pairs − k).
-        let mut descending = vec![BigRational::one()];
-        for k in 1..=pairs {
-            let sum = (1..=k).fold(BigRational::zero(), |sum, j| sum + &powers[j] * &descending[k - j]);
-            descending.push(-sum / integer(k.into()));
-        }
-        descending.reverse();
-        Univariate::new(descending)
+        let Root::Gaussian(Complex { re, im }) = &root else {
+            found.push(root);
+            return found;
+        };
+        let factor =
+            if im.is_zero() { vec![-re, BigInt::one()] } else { vec![re * re + im * im, -2 * re, BigInt::one()] };
+        polynomial = deflated(&polynomial, &factor);
+        found.push(root);
     }
+    found
+}
 
-    /// Σ xᵢᵏ for k = 0 … `highest`, by Newton's identities.
-    fn power_sums(&self, highest: usize) -> Vec<BigRational> {
-        let degree = self.degree();
-        let mut sums = vec![BigRational::from_integer(degree.into())];
-        for k in 1..=highest {
-            let mut sum = BigRational::zero();
-            for j in 1..=k.min(degree) {
-                let factor = if j == k { BigRational::from_integer(k.into()) } else { sums[k - j].clone() };
-                sum -= &self.0[degree - j] * factor;
-            }
-            sums.push(sum);
+/// The quotient by a monic factor.
+fn deflated(polynomial: &[BigInt], factor: &[BigInt]) -> Vec<BigInt> {
+    let (mut rest, degree) = (polynomial.to_vec(), factor.len() - 1);
+    let mut quotient = vec![BigInt::zero(); polynomial.len() - degree];
+    for k in (0..quotient.len()).rev() {
+        quotient[k] = rest[k + degree].clone();
+        for (entry, c) in rest[k..].iter_mut().zip(factor) {
+            *entry -= &quotient[k] * c;
         }
-        sums
     }
+    quotient
+}
 
-    /// (E, O) of p(shift + x) = E(x²) + x O(x²).
-    pub(super) fn even_and_odd(&self, shift: &BigInt) -> (Self, Self) {
-        let shift = BigRational::from_integer(shift.clone());
-        let mut c = self.0.clone();
-        for first in 0..c.len() {
-            for k in (first..c.len() - 1).rev() {
-                let above = &c[k + 1] * &shift;
-                c[k] += above;
-            }
-        }
-        let every_second = |first: usize| Univariate::new(c.iter().skip(first).step_by(2).cloned().collect());
-        (every_second(0), every_second(1))
+/// The lower root of x² + b x + c, or the complex one.
+fn of_quadratic(b: &BigInt, c: &BigInt) -> Root {
+    let discriminant: BigInt = b * b - 4 * c;
+    let (root, size) = (discriminant.abs().sqrt(), discriminant.abs());
+    let real = !discriminant.is_negative();
+    let [twice_re, twice_im] = if real { [-b - &root, BigInt::zero()] } else { [-b, root.clone()] };
+    if &root * &root == size && twice_re.is_even() && twice_im.is_even() {
+        return Root::Gaussian(Complex::new(twice_re / 2, twice_im / 2));
+    }
+    // 60 binary digits after the point.
+    let root = (size << 120_usize).sqrt();
+    let half = |n: BigInt| BigRational::new(n, BigInt::one() << 61_usize);
+    let near = -b << 60_usize;
+    match real {
+        // The other root is the larger one, and their product is c: nothing cancels.
+        true if b.is_negative() => Root::Irrational(real_number(BigRational::from(c.clone()) / half(near + root))),
+        true => Root::Irrational(real_number(half(near - root))),
+        false => Root::Irrational(Complex::new(half(near), half(root))),
     }
 }
 
-/// The number of sign changes of Sturm's chain at x.
-fn changes(chain: &[Univariate], x: &BigRational) -> usize {
-    let signs = chain.iter().map(|p| p.value(x)).filter(|value| !value.is_zero()).map(|value| value.is_negative());
-    let signs: Vec<bool> = signs.collect();
-    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
-}
-
-/// The number of roots in (low, high].
-fn count(chain: &[Univariate], low: &BigRational, high: &BigRational) -> usize {
-    changes(chain, low).saturating_sub(changes(chain, high))
-}
-
-/// Adds the roots in (low, high].
-fn isolate(chain: &[Univariate], low: BigInt, high: BigInt, roots: &mut Vec<RealRoot>) {
-    let [from, to] = [&low, &high].map(|end| BigRational::from_integer(end.clone()));
-    let number = count(chain, &from, &to);
-    if number == 0 {
-        return;
-    }
-    if &high - &low > BigInt::one() {
+/// A real root of a cubic polynomial, between integers at which the signs differ.
+fn of_cubic(polynomial: &[BigInt]) -> Root {
+    // |x| ≤ 1 + max |c| (Cauchy).
+    let bits = polynomial.iter().map(BigInt::bits).max().unwrap_or_default() + 1;
+    let (mut low, mut high) = (-(BigInt::one() << bits), BigInt::one() << bits);
+    while &high - &low > BigInt::one() {
         let middle: BigInt = (&low + &high).div_floor(&2.into());
-        isolate(chain, low, middle.clone(), roots);
-        isolate(chain, middle, high, roots);
-        return;
+        let value = value(polynomial, &middle);
+        match value.is_negative() {
+            _ if value.is_zero() => return Root::Gaussian(Complex::new(middle, BigInt::zero())),
+            true => low = middle,
+            false => high = middle,
+        }
     }
-    let at_end = chain[0].value(&to).is_zero();
-    if number > usize::from(at_end) {
-        roots.push(RealRoot::Irrational(figure(chain, from, to)));
+    // 60 binary digits more, by the polynomial of 2⁶⁰ x.
+    let shifted: Vec<BigInt> =
+        polynomial.iter().enumerate().map(|(k, c)| c << (60 * (polynomial.len() - 1 - k))).collect();
+    let (mut low, mut high) = (low << 60_usize, high << 60_usize);
+    while &high - &low > BigInt::one() {
+        let middle: BigInt = (&low + &high).div_floor(&2.into());
+        if value(&shifted, &middle).is_negative() { low = middle } else { high = middle }
     }
-    if at_end {
-        roots.push(RealRoot::Integer(high));
+    Root::Irrational(real_number(BigRational::new(high, BigInt::one() << 60_usize)))
+}
+
+fn value(polynomial: &[BigInt], x: &BigInt) -> BigInt {
+    polynomial.iter().rev().fold(BigInt::zero(), |sum, c| sum * x + c)
+}
+
+fn real_number(re: BigRational) -> Complex<BigRational> {
+    Complex::new(re, BigRational::zero())
+}
+
+/// A Gaussian integer among the roots of a quartic polynomial, from its roots in floats; or one of these.
+fn of_quartic(polynomial: &[BigInt]) -> Root {
+    let floats = in_floats(polynomial);
+    let whole = |part: &BigRational| part.round().to_integer();
+    let start = |root: &Complex<BigRational>| Complex::new(whole(&root.re), whole(&root.im));
+    let exact = floats.iter().find_map(|root| newton(polynomial, start(root)));
+    match exact {
+        Some(root) => Root::Gaussian(root),
+        None => Root::Irrational(floats.into_iter().next().unwrap_or_else(|| real_number(BigRational::zero()))),
     }
 }
 
-/// The smallest root in (low, high], as a float.
-fn figure(chain: &[Univariate], mut low: BigRational, mut high: BigRational) -> f64 {
-    for _ in 0..BISECTIONS {
-        let middle = (&low + &high) / BigInt::from(2);
-        if count(chain, &low, &middle) > 0 {
-            high = middle;
-        } else {
-            low = middle;
+/// The roots with Im ≥ 0 from the companion matrix of p(s x), where s = 2^k is their size.
+fn in_floats(polynomial: &[BigInt]) -> Vec<Complex<BigRational>> {
+    let degree = polynomial.len() - 1;
+    let bits = |k: usize| polynomial[degree - k].bits().div_ceil(k as u64);
+    let size = (1..=degree).map(bits).max().unwrap_or_default() as usize;
+    let scaled = |i: usize| {
+        let part = BigRational::new(polynomial[i].clone(), BigInt::one() << (size * (degree - i)));
+        part.to_f64().unwrap_or_default()
+    };
+    let companion = nalgebra::DMatrix::from_fn(degree, degree, |i, j| match j + 1 == degree {
+        true => -scaled(i),
+        false => f64::from(u8::from(i == j + 1)),
+    });
+    let part = |part: f64| BigRational::from_float(part).map(|part| part * (BigInt::one() << size));
+    let found = eigenvalues(&companion).unwrap_or_default().into_iter().filter(|root| root.im >= 0.0);
+    found.filter_map(|root| Some(Complex::new(part(root.re)?, part(root.im)?))).collect()
+}
+
+/// A root by Newton's iteration over the Gaussian integers; `None` if it ends at none.
+fn newton(polynomial: &[BigInt], mut at: Complex<BigInt>) -> Option<Complex<BigInt>> {
+    for _ in 0..STEPS {
+        let (mut value, mut slope) = (Complex::<BigInt>::zero(), Complex::<BigInt>::zero());
+        for c in polynomial.iter().rev() {
+            slope = &slope * &at + &value;
+            value = &value * &at + Complex::new(c.clone(), BigInt::zero());
         }
+        if value.is_zero() {
+            let positive = Complex::new(at.re, at.im.abs());
+            return Some(positive);
+        }
+        let size = slope.norm_sqr();
+        if size.is_zero() {
+            return None;
+        }
+        let step = value * slope.conj();
+        let step = Complex::new(rounded(step.re, &size), rounded(step.im, &size));
+        if step.is_zero() {
+            return None;
+        }
+        at -= step;
     }
-    high.to_f64().unwrap_or(f64::INFINITY)
+    None
+}
+
+/// n/d to the nearest integer, d > 0.
+fn rounded(n: BigInt, d: &BigInt) -> BigInt {
+    (n * BigInt::from(2) + d).div_floor(&(d * BigInt::from(2)))
 }

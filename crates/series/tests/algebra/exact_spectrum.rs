@@ -155,3 +155,24 @@ proptest! {
         prop_assert_eq!(form.direct(&h).map_err(fail)?, form.in_real().map_err(fail)?);
     }
 }
+
+#[test]
+fn fractions_of_many_digits_are_found_or_refused() -> Result<(), Error> {
+    // 36 terms in four pairs with a common denominator of some 400 digits: generic, and so irrational.
+    let names: Vec<&str> = PAIRS.iter().flat_map(|(q, p)| [*q, *p]).collect();
+    let mut state = 11_u64;
+    let mut digits = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 24) + 1
+    };
+    let mut terms = Vec::new();
+    for (i, first) in names.iter().enumerate() {
+        for second in &names[i..] {
+            terms.push(format!("{}/{}*{first}*{second}", digits(), digits()));
+        }
+    }
+    let space = PhaseSpace::new(&PAIRS)?;
+    let refused = normalize(&space.parse::<BigRational>(&terms.join(" + "))?, 0, &space);
+    assert!(matches!(refused, Err(Error::SpectrumIrrational { .. })), "{refused:?}");
+    Ok(())
+}
