@@ -65,14 +65,14 @@ fn characteristic(matrix: &Matrix<BigInt>) -> Vec<BigInt> {
 }
 
 /// λ = a + ib in the first quadrant for each root λ² of a square-free factor, one of each conjugate pair; or an irrational λ².
-fn lambdas(squares: Vec<BigInt>) -> Result<Vec<(BigInt, BigInt)>, Complex<BigRational>> {
+fn lambdas(squares: Vec<BigInt>) -> Result<Vec<(BigInt, BigInt)>, Box<Complex<BigRational>>> {
     let lambda = |root: Root| {
         let square = match root {
             Root::Gaussian(square) => square,
-            Root::Irrational(square) => return Err(square),
+            Root::Irrational(square) => return Err(Box::new(square)),
         };
         // (a + ib)² = x + iy: a² = (|μ| + x)/2, b² = (|μ| − x)/2.
-        let irrational = || Complex::new(square.re.clone().into(), square.im.clone().into());
+        let irrational = || Box::new(Complex::new(square.re.clone().into(), square.im.clone().into()));
         let modulus = exact_root(&square.norm_sqr()).ok_or_else(irrational)?;
         let part = |twice: BigInt| {
             let (half, odd) = twice.div_rem(&2.into());

@@ -5,8 +5,11 @@ use andoyer_series::progress::quiet;
 use andoyer_series::{BirkhoffMap, Error, PhaseSpace, normalize, normalize_with};
 use num_rational::BigRational;
 
-/// Forms of each kind, and a direction in which states are taken.
-fn forms() -> Result<Vec<(&'static str, BirkhoffMap, Vec<f64>)>, Error> {
+/// A name, a form, and the direction in which states are taken.
+type Case = (&'static str, BirkhoffMap, Vec<f64>);
+
+/// Forms of each kind.
+fn forms() -> Result<Vec<Case>, Error> {
     let (one, two) = (PhaseSpace::new(&[("q", "p")])?, PhaseSpace::new(&[("x", "X"), ("y", "Y")])?);
     let cubic = "(p^2 + q^2)/2 - q^3/3";
     let exact = normalize(&one.parse::<BigRational>(cubic)?, 8, &one)?;
