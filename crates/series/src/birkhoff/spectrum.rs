@@ -1,6 +1,6 @@
 //! The eigenvalues of the linear motion J A and their null vectors.
 //!
-//! Floats have the eigenvalues of the real Schur form, rationals those of [`exact_spectrum`](super::exact_spectrum). An eigenvalue of multiplicity m has m null
+//! Floats have the eigenvalues of the real Schur form, rationals those of [`exact_spectrum`]. An eigenvalue of multiplicity m has m null
 //! vectors of J A − λ. Otherwise it has a Jordan block, which is an error that names the eigenvalue.
 
 use super::exact_spectrum::{self, Eigenvalue, Refusal};
