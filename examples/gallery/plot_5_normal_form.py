@@ -22,7 +22,8 @@ form = andoyer.normalize(pendulum, 12, variables=[("q", "p")])
 print(form)
 
 # %%
-# The frequency is the derivative of K with respect to the action. The true frequency follows from the arithmetic-geometric mean.
+# The frequency is the derivative of K with respect to the action. The true frequency follows from the arithmetic-geometric mean. A state that the transformation there and back misses by
+# more than 1 % is a `TheoryError`: the curve of each order ends there.
 
 
 def true_frequency(amplitude: float) -> float:
@@ -38,9 +39,14 @@ true = np.array([true_frequency(amplitude) for amplitude in amplitudes])
 figure, axes = plt.subplots(figsize=(8, 5), layout="constrained")
 for order, style in zip([2, 4, 8, 12], [":", "-.", "--", "-"]):
     form = andoyer.normalize(pendulum, order, variables=[("q", "p")])
-    found = form.frequency_map(form.actions([[amplitude, 0.0] for amplitude in amplitudes]))[:, 0]
-    error = np.maximum(np.abs(found / true - 1), 1e-16)
-    axes.semilogy(amplitudes, error, style, label=f"order {order}")
+    found = []
+    for amplitude in amplitudes:
+        try:
+            found.append(form.frequency_map(form.actions([amplitude, 0.0]))[0])
+        except andoyer.TheoryError:
+            break
+    error = np.maximum(np.abs(found / true[: len(found)] - 1), 1e-16)
+    axes.semilogy(amplitudes[: len(found)], error, style, label=f"order {order}")
 axes.set(xlabel="amplitude [rad]", ylabel="relative error of the frequency")
 axes.set_title("The pendulum's normal form, by order")
 axes.legend(frameon=False)
