@@ -80,6 +80,8 @@ REFUSED = {
     "stack of a class of one": lambda: np.array([[W, X, Y, Z]] * 4).view(OfOne),
     "other names": Opaque,
     "list of other names": lambda: [Opaque()] * 4,
+    "columns with other names": lambda: pytest.importorskip("pandas").DataFrame({"q0": [W] * 4, "q1": X, "q2": Y, "q3": Z}),
+    "labels with other names": lambda: pytest.importorskip("xarray").DataArray([W, X, Y, Z], dims=["q"], coords={"q": ["q_w", "q_x", "q_y", "q_z"]}),
     "both kinds": lambda: [[X, Y, Z, W], np.array([W, X, Y, Z]).view(First)],
 }
 

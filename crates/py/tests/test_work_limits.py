@@ -7,6 +7,7 @@ import pytest
 
 from andoyer import Body, Orbit, Scene, TheoryError, Torque
 
+pytestmark = pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 TURN = 2 * math.pi
 
 

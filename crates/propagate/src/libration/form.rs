@@ -76,7 +76,7 @@ pub(super) fn periodic(
 ) -> Result<Arc<DrivenForm>, Error> {
     let most = if limited { (MOST_PRODUCTS / PRODUCTS_OF_A_STEP) as usize } else { usize::MAX };
     let system = Limited { shape, times: AtomicUsize::new(0), most };
-    form((shape, &system), 0, tolerance, None, stop)
+    form((shape, &system, limited), 0, tolerance, None, stop)
 }
 
 /// The normal form of another order about the periodic motion of a form.
@@ -90,7 +90,7 @@ pub(super) fn to_order(
     tolerance: f64,
     stop: &AtomicBool,
 ) -> Result<Arc<DrivenForm>, Error> {
-    form((shape, shape), order, tolerance, Some(known), stop)
+    form((shape, shape, false), order, tolerance, Some(known), stop)
 }
 
 /// The normal form of a shape for a tolerance \[rad\], kept for the next scene. `known` is one of another order for the same shape and tolerance: the periodic motion is the same.
@@ -98,7 +98,7 @@ pub(super) fn to_order(
 /// # Errors
 /// Those of [`DrivenForm::new`]; [`Error::Interrupted`] when the flag is set.
 fn form(
-    (shape, system): (&LockedShape, &dyn DrivenHamiltonian),
+    (shape, system, limited): (&LockedShape, &dyn DrivenHamiltonian, bool),
     order: usize,
     tolerance: f64,
     known: Option<&DrivenForm>,
@@ -112,7 +112,9 @@ fn form(
     let mut key: Vec<u64> = numbers.map(f64::to_bits).into();
     // A number that no argument has.
     key.push(argument.unwrap_or(f64::NAN).to_bits());
-    key.extend([i64::from(shape.twice), order as i64, tail as i64].map(i64::cast_unsigned));
+    // A motion that a limit refuses is refused although another scene, without the limit, has kept it.
+    let numbers = [i64::from(shape.twice), order as i64, tail as i64, i64::from(limited)];
+    key.extend(numbers.map(i64::cast_unsigned));
     let mut going = |_: usize, _: usize| match stop.load(Ordering::Relaxed) {
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),

@@ -1,8 +1,9 @@
 //! The range of a truncated transformation: a point that it takes there and back must return to within 1 % of its distance.
 //!
 //! The series diverge, and beyond their range they give numbers of any size. Both classes of forms use this test: [`BirkhoffMap`](crate::BirkhoffMap), whose
-//! second direction is the inverse series, and [`DrivenForm`](crate::periodic::DrivenForm), whose second direction is an iteration. The distance is measured in the
-//! variables of the states, from the equilibrium or the periodic motion.
+//! second direction is the inverse series, and [`DrivenForm`](crate::periodic::DrivenForm), whose second direction is an iteration. The distance is the
+//! largest variable: of the state or, if that is larger, of the forced motion (`BirkhoffMap`), or of the state measured from the periodic motion (`DrivenForm`).
+//! The test sees whether a transformation returns, not whether it is right: a low order can return far from the equilibrium.
 
 use num_complex::Complex;
 

@@ -19,7 +19,7 @@ const STEPS: usize = 64;
 /// A root of a monic polynomial with integer coefficients; of a complex pair that with Im > 0.
 pub(super) enum Root {
     Gaussian(Complex<BigInt>),
-    /// A root that is none, to 16 digits at least.
+    /// An approximation of an irrational root.
     Irrational(Complex<BigRational>),
 }
 

@@ -36,6 +36,8 @@ def quaternions(argument: str, value: Any) -> tuple[Any, bool]:
         return by_name, True
     if isinstance(value, (list, tuple)):
         return _rows(argument, value)
+    if is_labelled(value):
+        raise TypeError(f"{argument} is a {_kind(value)} with labels other than x, y, z, w or qx, qy, qz, qw: {REMEDY}")
     opaque = not any(hasattr(value, name) for name in ("__array__", "__len__", "unit", "units")) and not _is_number(value)
     if opaque or is_foreign_array(value):
         raise TypeError(f"{argument} is a {_kind(value)}, whose order of components is not known: {REMEDY}")
@@ -44,7 +46,7 @@ def quaternions(argument: str, value: Any) -> tuple[Any, bool]:
 
 def _rows(argument: str, values: Any) -> tuple[Any, bool]:
     """The quaternions of a list, as of `quaternions`."""
-    if all(isinstance(value, (float, int)) for value in values):
+    if all(isinstance(value, (float, int)) for value in values) or all(is_plain(value) for value in values):
         return values, False
     rows = [quaternions(argument, value) for value in values]
     order = {known for _, known in rows}
@@ -61,6 +63,19 @@ def _is_number(value: Any) -> bool:
     except (TypeError, ValueError):
         return type(value).__module__ == "builtins"
     return True
+
+
+def is_plain(value: Any) -> bool:
+    """Whether `value` is an array of numbers of NumPy's own class."""
+    return type(value) is np.ndarray and value.dtype.kind in "iuf"
+
+
+def is_labelled(value: Any) -> bool:
+    """Whether the columns of a table, or the places along an axis, have texts as labels."""
+    labels = [*getattr(value, "columns", ())]
+    for axis in getattr(value, "dims", ()):
+        labels += value.coords[axis].values.tolist() if axis in value.coords else []
+    return any(isinstance(label, str) for label in labels)
 
 
 def is_foreign_array(value: Any) -> bool:

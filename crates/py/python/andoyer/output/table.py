@@ -290,7 +290,7 @@ def _read_csv(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
             table = np.loadtxt(file, delimiter=",", ndmin=2, comments=COMMENT)
         with path.open(encoding="utf-8-sig") as file:
             said = [line.removeprefix(COMMENT).partition(": ") for line in file if line.startswith(COMMENT)]
-        texts = {key: json.loads(text) for key, _, text in said if key in ("scene", "remark")}
+        texts = {key: json.loads(text) for key, _, text in said if key in ("scene", "remark") and text.startswith('"')}
     except ValueError as error:
         raise ValueError(f"must be a table in CSV: {error}") from error
     _once(names)
