@@ -1,6 +1,7 @@
 //! The error of a motion, measured: the full equations are integrated once more, and the attitudes are compared.
 //!
-//! The integration is about the body axes (2, 3, 1). Permuted axes give other steps and other rounding: the check is independent of an integrated motion. Its own error bound comes from displaced states (docs/architecture.md, Integrated). The cost is that of
+//! The integration starts from what was given, a tensor and rates about the user's axes too. It is about the body axes (2, 3, 1): permuted axes give other steps and
+//! other rounding, so that the check is independent of an integrated motion. Its own error bound comes from displaced states (docs/architecture.md, Integrated). The cost is that of
 //! `Method::Integrated` over the same span.
 
 use std::fmt;
@@ -10,7 +11,6 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::input::body::Body;
 use crate::input::options::Method;
 use crate::input::scene::Scene;
 use crate::input::state::State;
@@ -179,7 +179,7 @@ impl Motion {
         let samples = times.len();
         let [own, other] = [self, reference].map(|motion| {
             let (mut attitudes, mut rates) = (vec![[0.0; 4]; samples], vec![[0.0; 3]; samples]);
-            motion.batch().until(stop).about_principal_axes(&times, &mut attitudes, &mut rates).map(|()| attitudes)
+            motion.batch().until(stop).samples_into(&times, &mut attitudes, &mut rates).map(|()| attitudes)
         });
         let attitude = |components: &[f64; 4]| UnitQuaternion::new_unchecked((*components).into());
         let error = |(own, other): (&[f64; 4], &[f64; 4])| (attitude(own) * next_axes()).angle_to(&attitude(other));
@@ -190,16 +190,16 @@ impl Motion {
 
     /// The scene about the body axes (2, 3, 1), to be integrated.
     fn independent(&self, (start, stop): (f64, f64), tolerance: Option<f64>) -> Result<Scene, Error> {
-        let State { epoch, attitude, angular_velocity: rates } = *self.scene.state();
-        let [first, second, third] = self.scene.body().moments();
+        let given = self.scene();
+        let State { epoch, attitude, angular_velocity: rates } = *given.state();
         let state = State {
             epoch,
             attitude: attitude * next_axes(),
             angular_velocity: Vector3::new(rates.y, rates.z, rates.x),
         };
-        let torques: Vec<_> = self.scene.asked_torques().iter().map(|torque| torque.turned(&next_axes())).collect();
-        let mut scene = self.scene.starting_from(Body::new([second, third, first])?, state).torques(torques);
-        if first == second && second == third {
+        let torques: Vec<_> = given.asked_torques().iter().map(|torque| torque.turned(&next_axes())).collect();
+        let mut scene = given.starting_from(given.body().about_next_axes()?, state).torques(torques);
+        if given.body().is_sphere() {
             // No body exerts a torque on a sphere, and a table need not reach over the span.
             scene = scene.disturbing(Vec::<DisturbingBody>::new());
         }

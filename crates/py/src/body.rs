@@ -75,8 +75,8 @@ impl Body {
 
     /// A body from its inertia tensor about axes that you choose. Attitudes, rates, momenta and derivatives of its scenes are about these axes.
     ///
-    /// `moments` has the principal moments, and `principal_axes` the principal axes, each nearest to one of your axes. Two axes with equal moments (to 1e-12 of
-    /// the largest) and without a product of inertia are not changed.
+    /// `moments` has the principal moments, and `principal_axes` the principal axes, each nearest to one of your axes. The tensor is taken as exact: it is
+    /// what a motion's error bound counts from, and with equal moments on its diagonal the least product of inertia turns two axes by 45°.
     ///
     /// Parameters
     /// ----------

@@ -3,14 +3,17 @@
 //! Moments are given in any order about body axes 1, 2, 3. A ≤ B ≤ C of the theory are the sorted moments. Differences of moments are computed before any
 //! division, so that α, αβ and 1 − β keep their relative accuracy for a nearly spherical, oblate or prolate body.
 
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+use andoyer_double::DoubleDouble;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::catalogue;
-use super::principal_axes::{NEGLIGIBLE, principal_axes};
+use super::principal_axes::{Square, principal_axes, rounded};
 use crate::error::Error;
 
 /// Tolerance of the triangle inequality, which accepts a flat body given in rounded decimals.
 const TRIANGLE_SLACK: f64 = 8.0 * f64::EPSILON;
+/// Opposite entries of a tensor that differ by less than this fraction of its largest entry are equal: their mean counts.
+const SYMMETRIC: f64 = 1e-12;
 /// Largest ratio C/A of moments. Beyond it C/A − 1 and its squares approach the limits of a double. No body is so thin: a needle of 1e50 : 1 has this ratio.
 const LARGEST_RATIO: f64 = 1e100;
 
@@ -18,6 +21,8 @@ const LARGEST_RATIO: f64 = 1e100;
 #[derive(Clone, Debug)]
 pub struct Body {
     moments: [f64; 3],
+    /// What the moments of a tensor lose by rounding: with them they are double-doubles.
+    lows: [f64; 3],
     name: Option<String>,
     tensor: Option<Box<Tensor>>,
     /// Whether the body was given by a tensor. A tensor about the principal axes is kept as moments.
@@ -37,6 +42,7 @@ struct Tensor {
     given: [[f64; 3]; 3],
     /// The principal axes as columns, in the user's components.
     axes: Matrix3<f64>,
+    precise_axes: Square,
     /// Rotation from components about principal axes to components about the user's axes.
     turn: UnitQuaternion<f64>,
 }
@@ -60,7 +66,7 @@ impl Body {
                 return Err(Error::Moment { axis, value });
             }
         }
-        let body = Self { moments, name: None, tensor: None, by_tensor: false };
+        let body = Self { moments, lows: [0.0; 3], name: None, tensor: None, by_tensor: false };
         let [a, b, c] = body.sorted();
         // Each quotient is computed by itself, because the sum of two large moments may overflow.
         let sum = a / c + b / c;
@@ -75,8 +81,8 @@ impl Body {
 
     /// A body from its inertia tensor about the user's axes. Attitudes, rates and momenta of its scenes refer to these axes too.
     ///
-    /// The principal axes are numbered and directed so that they are nearest to the user's axes. Two axes do not change if their moments are equal and their
-    /// product of inertia is 0, both to 1e-12 of the largest moment.
+    /// The principal axes are numbered and directed so that they are nearest to the user's axes. The tensor is taken as exact: with equal moments on its diagonal
+    /// the least product of inertia turns two axes by 45°.
     ///
     /// # Errors
     /// - [`Error::InertiaSymmetry`] for opposite entries that differ by more than 1e-12 of the largest entry, or for entries that are not finite.
@@ -92,7 +98,7 @@ impl Body {
         let largest = tensor.iter().flatten().fold(0.0_f64, |most, entry| most.max(entry.abs()));
         for (row, column) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)] {
             let (value, mirrored) = (tensor[row][column], tensor[column][row]);
-            let symmetric = value.is_finite() && (value - mirrored).abs() <= NEGLIGIBLE * largest;
+            let symmetric = value.is_finite() && (value - mirrored).abs() <= SYMMETRIC * largest;
             if !symmetric {
                 return Err(Error::InertiaSymmetry { row, column, value, mirrored });
             }
@@ -100,20 +106,27 @@ impl Body {
         if largest == 0.0 {
             return Err(Error::InertiaMoments { moments: [0.0; 3] });
         }
-        let matrix = Matrix3::from_fn(|row, column| 0.5 * tensor[row][column] + 0.5 * tensor[column][row]);
-        let (moments, axes) = principal_axes(&matrix);
+        let mean = |row: usize, column: usize| DoubleDouble::sum(0.5 * tensor[row][column], 0.5 * tensor[column][row]);
+        let (precise, axes) =
+            principal_axes(&std::array::from_fn(|row| std::array::from_fn(|column| mean(row, column))));
+        let moments = precise.map(DoubleDouble::to_f64);
         if moments.iter().any(|moment| *moment <= 0.0) {
             return Err(Error::InertiaMoments { moments });
         }
-        Ok(Self::new(moments)?.about(axes, tensor))
+        Ok(Self::new(moments)?.with_precise(precise).about(axes, tensor))
+    }
+
+    fn with_precise(self, moments: [DoubleDouble; 3]) -> Self {
+        Self { moments: moments.map(|moment| moment.high), lows: moments.map(|moment| moment.low), ..self }
     }
 
     /// The same body about axes of which these are the principal ones.
-    fn about(mut self, axes: Matrix3<f64>, given: [[f64; 3]; 3]) -> Self {
+    fn about(mut self, precise_axes: Square, given: [[f64; 3]; 3]) -> Self {
         self.by_tensor = true;
+        let axes = rounded(&precise_axes);
         if axes != Matrix3::identity() {
             let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
-            self.tensor = Some(Box::new(Tensor { given, axes, turn }));
+            self.tensor = Some(Box::new(Tensor { given, axes, precise_axes, turn }));
         }
         self
     }
@@ -179,6 +192,48 @@ impl Body {
         self.tensor.as_ref().map(|tensor| tensor.turn)
     }
 
+    /// A vector about the user's axes in components about the principal axes.
+    pub(crate) fn along_principal_axes(&self, vector: Vector3<f64>) -> [DoubleDouble; 3] {
+        let component = |axes: &Square, column: usize| {
+            let term = |row: usize| axes[row][column].times_double(vector[row]);
+            term(0) + term(1) + term(2)
+        };
+        match &self.tensor {
+            Some(tensor) => std::array::from_fn(|column| component(&tensor.precise_axes, column)),
+            None => <[f64; 3]>::from(vector).map(DoubleDouble::from),
+        }
+    }
+
+    /// The moments in double-double: those of a tensor are not rounded.
+    pub(crate) fn precise_moments(&self) -> [DoubleDouble; 3] {
+        std::array::from_fn(|axis| DoubleDouble { high: self.moments[axis], low: self.lows[axis] })
+    }
+
+    /// Whether all moments are equal: no body exerts a torque on a sphere.
+    pub(crate) fn is_sphere(&self) -> bool {
+        let [a, b, c] = self.precise_moments();
+        a == b && b == c
+    }
+
+    /// (I3 − I2)/I1 and so on, the factors of Euler's equations, accurate to rounding.
+    pub(crate) fn ratios(&self) -> [f64; 3] {
+        let [a, b, c] = self.precise_moments();
+        [(c - b, a), (a - c, b), (b - a, c)].map(|(difference, moment)| difference.to_f64() / moment.high)
+    }
+
+    /// The same body as given, about the axes (2, 3, 1).
+    ///
+    /// # Errors
+    /// Those of a body whose moments are at a limit.
+    pub(crate) fn about_next_axes(&self) -> Result<Self, Error> {
+        let next = |axis: usize| (axis + 1) % 3;
+        let tensor = self.inertia();
+        if self.tensor.is_some() {
+            return Self::from_inertia(std::array::from_fn(|i| std::array::from_fn(|j| tensor[next(i)][next(j)])));
+        }
+        Self::new([0, 1, 2].map(|axis| self.moments[next(axis)]))
+    }
+
     /// The same body about its principal axes.
     pub(crate) fn about_principal_axes(&self) -> Self {
         Self { tensor: None, ..self.clone() }
@@ -186,15 +241,17 @@ impl Body {
 
     /// The body about its principal axes with a slightly different tensor, which is not validated; from the changes of I11, I22, I33, I12, I13, I23.
     pub(crate) fn displaced(&self, [i11, i22, i33, i12, i13, i23]: [f64; 6]) -> Self {
-        let [a, b, c] = self.moments;
-        let body = Self { moments: [a + i11, b + i22, c + i33], ..self.clone() };
+        let [a, b, c] = self.precise_moments();
+        let moments = [a + i11.into(), b + i22.into(), c + i33.into()];
+        let body = self.clone().with_precise(moments);
         if [i12, i13, i23] == [0.0; 3] {
             return body;
         }
-        let tensor =
-            Matrix3::from_diagonal(&body.moments.into()) + Matrix3::new(0.0, i12, i13, i12, 0.0, i23, i13, i23, 0.0);
+        let [a, b, c] = moments;
+        let [i12, i13, i23] = [i12, i13, i23].map(DoubleDouble::from);
+        let tensor = [[a, i12, i13], [i12, b, i23], [i13, i23, c]];
         let (moments, axes) = principal_axes(&tensor);
-        Self { moments, ..body }.about(axes, tensor.into())
+        body.with_precise(moments).about(axes, tensor.map(|row| row.map(DoubleDouble::to_f64)))
     }
 
     /// A body of the catalogue by its name, in upper or lower case: "earth", "ceres", … ([`Body::catalogue`] lists the names).
@@ -249,16 +306,22 @@ impl Body {
         [low.min(third), low.max(third).min(high), high.max(third)]
     }
 
+    fn precise_sorted(&self) -> [DoubleDouble; 3] {
+        let mut moments = self.precise_moments();
+        moments.sort_by(|one, other| one.high.total_cmp(&other.high).then(one.low.total_cmp(&other.low)));
+        moments
+    }
+
     /// C/A − 1 and C/B − 1 (theory §1), accurate to rounding.
     pub(crate) fn excesses(&self) -> (f64, f64) {
-        let [a, b, c] = self.sorted();
-        ((c - a) / a, (c - b) / b)
+        let [a, b, c] = self.precise_sorted();
+        ((c - a).to_f64() / a.high, (c - b).to_f64() / b.high)
     }
 
     /// C/A − C/B = 2αβ, computed without the difference of the two excesses.
     pub(crate) fn excess_difference(&self) -> f64 {
-        let [a, b, c] = self.sorted();
-        (c / b) * ((b - a) / a)
+        let [a, b, c] = self.precise_sorted();
+        (c.high / b.high) * ((b - a).to_f64() / a.high)
     }
 
     /// α = [(C/A − 1) + (C/B − 1)]/2 (theory §1); 0 for a sphere.

@@ -1,5 +1,6 @@
 //! A scene: a body, its state, and the requested accuracy. `solve` turns it into a motion.
 
+use andoyer_double::DoubleDouble;
 use nalgebra::UnitQuaternion;
 
 use super::body::Body;
@@ -26,6 +27,8 @@ use crate::orbit::elements::Orbit;
 pub struct Scene {
     body: Body,
     state: State,
+    /// What the angular velocity about the principal axes of a tensor loses by rounding.
+    rate_lows: [f64; 3],
     tolerance: f64,
     method: Method,
     order: Option<usize>,
@@ -44,6 +47,7 @@ impl Scene {
         Self {
             body,
             state,
+            rate_lows: [0.0; 3],
             tolerance: 1e-12,
             method: Method::Auto,
             order: None,
@@ -146,9 +150,15 @@ impl Scene {
     /// The same scene about the principal axes of its body. `turn` is the rotation from components about principal axes to the user's.
     pub(crate) fn about_principal_axes(&self, turn: UnitQuaternion<f64>) -> Self {
         let State { epoch, attitude, angular_velocity } = self.state;
-        let state = State { epoch, attitude: attitude * turn, angular_velocity: turn.inverse() * angular_velocity };
+        let rates = self.body.along_principal_axes(angular_velocity);
+        let angular_velocity = rates.map(|rate| rate.high).into();
+        let state = State { epoch, attitude: attitude * turn, angular_velocity };
         let torques = self.torques.iter().map(|torque| torque.turned(&turn)).collect();
-        Self { torques, ..self.starting_from(self.body.about_principal_axes(), state) }
+        Self {
+            torques,
+            rate_lows: rates.map(|rate| rate.low),
+            ..self.starting_from(self.body.about_principal_axes(), state)
+        }
     }
 
     /// The same scene with another state. The span stays.
@@ -165,6 +175,11 @@ impl Scene {
     /// The body.
     pub fn body(&self) -> &Body {
         &self.body
+    }
+
+    /// The angular velocity at the epoch in double-double: that about the principal axes of a tensor is not rounded.
+    pub(crate) fn precise_rates(&self) -> [DoubleDouble; 3] {
+        std::array::from_fn(|axis| DoubleDouble { high: self.state.angular_velocity[axis], low: self.rate_lows[axis] })
     }
 
     /// The state at the epoch.

@@ -41,12 +41,12 @@ pub(super) struct Equations<const W: usize> {
 
 impl Equations<4> {
     pub(super) fn new(scene: &Scene, exponent: i32, scale: f64) -> Self {
-        let [a, b, c] = scene.body().moments();
+        let [first, second, third] = scene.body().ratios();
         let epoch = scene.state().epoch;
         let bodies: Vec<_> =
             scene.asked_disturbing().iter().map(|body| PathSeries::new(body, epoch, exponent)).collect();
         let strengths = vec![[1.0; 4]; bodies.len()];
-        let factors = [(c - b) / a, (a - c) / b, (b - a) / c, 0.0];
+        let factors = [first, second, third, 0.0];
         let torques = Torques::new(scene, exponent, false).map(Arc::new);
         Self { factors, bodies, strengths, torques, share: [1.0; 4], scale }
     }

@@ -52,7 +52,7 @@ impl Motion {
         }
         let moments = self.scene.body().moments();
         // Axis 3 keeps its direction.
-        let frame = Frame::new(moments, [0.0; 3], false);
+        let frame = Frame::new(self.scene.body().precise_moments(), [0.0; 3], false);
         let rotors = rotors(self.scene.asked_torques());
         let [g1, g2, g3] = frame.sorted(std::array::from_fn(|i| moments[i] * rates[i] + rotors[i]));
         let node = node_angle(total.x, -total.y);

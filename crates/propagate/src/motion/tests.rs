@@ -132,7 +132,7 @@ impl Case {
         let mut numbers = || std::array::from_fn::<f64, 4, _>(|_| draw.next() - 0.5);
         let inertial = UnitQuaternion::new_normalize(Quaternion::from(numbers()));
         let [first, second, third, fourth] = numbers();
-        let frame = Frame::new([1.0 + first, 1.0 + second, 1.0 + third], [0.0, 0.0, fourth], false);
+        let frame = Frame::new([first, second, third].map(|part| (1.0 + part).into()), [0.0, 0.0, fourth], false);
         let terms = (0..terms).map(|k| {
             let [c, d, e, f] = numbers().map(|x| x * ratio.powi(k as i32));
             // The mean has no sine and is the largest term.

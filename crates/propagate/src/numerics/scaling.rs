@@ -28,9 +28,14 @@ fn power_of_two(power: i32) -> f64 {
     }
 }
 
+/// value·2^power of a double-double.
+pub(crate) fn scaled_pair(value: DoubleDouble, power: i32) -> DoubleDouble {
+    DoubleDouble { high: scaled(value.high, power), low: scaled(value.low, power) }
+}
+
 /// A rate in the user's unit.
 pub(crate) fn user_rate(rate: DoubleDouble, exponent: i32) -> DoubleDouble {
-    DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) }
+    scaled_pair(rate, exponent)
 }
 
 /// The phase of half an angle. A quaternion needs half angles, and a whole turn of the half angle leaves it unchanged.

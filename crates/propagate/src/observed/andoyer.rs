@@ -67,7 +67,7 @@ impl Scene {
         let (_, _, inclination) = inclined(vertical);
         let (sine, cosine, tilt) = inclined(axial);
         let moments = body.moments();
-        let frame = Frame::new(moments, [0.0; 3], false);
+        let frame = Frame::new(body.precise_moments(), [0.0; 3], false);
         let attitude = about(node) * inclination * about(angle) * tilt * about(spin) * frame.quaternion;
         let direction = frame.user([sine * spin.sin(), sine * spin.cos(), cosine]);
         let turn = body.turn().unwrap_or_else(UnitQuaternion::identity);

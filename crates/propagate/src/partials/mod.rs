@@ -154,7 +154,7 @@ impl Motion {
         attitudes: &mut [Derivatives],
         rates: &mut [Derivatives],
     ) -> Result<(), Error> {
-        let Some(polhode) = Polhode::new(self.scene.body(), self.scene.state()) else {
+        let Some(polhode) = Polhode::of(&self.scene) else {
             steady::at_rest(times, epoch, attitudes, rates);
             return Ok(());
         };

@@ -27,7 +27,7 @@ pub(super) fn fill(motion: &Motion, epoch: f64, times: &[f64], (attitudes, rates
     let given = motion.given.as_ref().map(|given| given.turn.to_rotation_matrix().into_inner());
     let axes = given.unwrap_or_else(Matrix3::identity);
     let wobbles = matches!(motion.trajectory, Trajectory::Wobble(_) | Trajectory::Passage(_));
-    let polhode = || Polhode::new(motion.scene.body(), motion.scene.state());
+    let polhode = || Polhode::of(&motion.scene);
     if wobbles && polhode().is_some_and(|polhode| !polhode.has_small_divisor(true)) {
         return by_turned_axes(motion, epoch, times, &axes, (attitudes, rates));
     }
@@ -46,7 +46,7 @@ fn about_principal_axes(
     times: &[f64],
     (attitudes, rates): Output<'_>,
 ) -> Result<(), Error> {
-    let Some(polhode) = Polhode::new(motion.scene.body(), motion.scene.state()) else {
+    let Some(polhode) = Polhode::of(&motion.scene) else {
         steady::at_rest(times, epoch, attitudes, rates);
         return Ok(());
     };

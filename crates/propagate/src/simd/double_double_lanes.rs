@@ -35,26 +35,6 @@ impl<S: InstructionSet> DoubleDoubleLanes<S> {
         DoubleDouble { high: self.high.values()[lane], low: self.low.values()[lane] }
     }
 
-    /// Doubles.
-    #[inline(always)]
-    pub(crate) fn from_lanes(high: Lanes<S>) -> Self {
-        Self { high, low: high.all(0.0) }
-    }
-
-    /// a + b without a rounding error.
-    #[inline(always)]
-    pub(crate) fn sum(a: Lanes<S>, b: Lanes<S>) -> Self {
-        let (high, low) = two_sum(a, b);
-        Self { high, low }
-    }
-
-    /// a·b without a rounding error.
-    #[inline(always)]
-    pub(crate) fn product(a: Lanes<S>, b: Lanes<S>) -> Self {
-        let high = a * b;
-        Self { high, low: a.product_error(b, high) }
-    }
-
     /// self/divisor for a divisor in doubles.
     #[inline(always)]
     pub(crate) fn over(self, divisor: Lanes<S>) -> Self {
@@ -62,6 +42,13 @@ impl<S: InstructionSet> DoubleDoubleLanes<S> {
         let product = first * divisor;
         let error = first.product_error(divisor, product);
         renormalized(first, ((self.high - product) - error + self.low) / divisor)
+    }
+
+    /// self/divisor for a divisor whose low part is a correction of first order: it costs four operations more than [`Self::over`].
+    #[inline(always)]
+    pub(crate) fn over_pair(self, divisor: Self) -> Self {
+        let by_high = self.over(divisor.high);
+        renormalized(by_high.high, by_high.low - by_high.high * (divisor.low / divisor.high))
     }
 
     /// The nearest doubles.

@@ -135,7 +135,8 @@ mod tests {
                 let one = x.all(1.0);
                 // The other one of each pair converges at once.
                 let [means, _] = means([one; 2], [x, one]);
-                let precise = precise_mean(DoubleDoubleLanes::from_lanes(one), DoubleDoubleLanes::from_lanes(x));
+                let exact = |high: Lanes<S>| DoubleDoubleLanes { high, low: high.all(0.0) };
+                let precise = precise_mean(exact(one), exact(x));
                 let [_, integrals] = carlson_rf([[one; 3], [x, x + x.all(0.5), one]]);
                 for lane in 0..Lanes::<S>::WIDTH {
                     found.push((means.values()[lane], precise.lane(lane), integrals.values()[lane]));

@@ -175,24 +175,18 @@ fn without(mut by_theory: Motion, unused: String) -> Motion {
 
 /// The motion by theory: averaged if a torque acts, else free.
 fn by_theory(scene: Scene, tables: &SeriesTables) -> Result<Motion, Error> {
-    let polhode = Polhode::new(scene.body(), scene.state());
-    match scene.asked_orbits().filter(|_| !is_sphere(&scene)) {
+    let polhode = Polhode::of(&scene);
+    match scene.asked_orbits().filter(|_| !scene.body().is_sphere()) {
         Some(orbits) => averaged::motion(scene, polhode.as_ref(), &orbits),
         None => free::motion(scene, polhode.as_ref(), Preparation::new(tables)),
     }
-}
-
-/// Whether all moments are equal: no body exerts a torque on a sphere.
-fn is_sphere(scene: &Scene) -> bool {
-    let [a, b, c] = scene.body().moments();
-    a == b && b == c
 }
 
 /// Why no theory covers the scene, or `None`.
 fn beyond_theory(scene: &Scene) -> Option<String> {
     match scene.asked_disturbing() {
         _ if !scene.asked_torques().is_empty() => Some("a torque beside the gravity gradient is integrated".to_owned()),
-        _ if is_sphere(scene) => None,
+        _ if scene.body().is_sphere() => None,
         bodies if bodies.iter().any(|body| matches!(body, DisturbingBody::Tabulated(_))) => {
             Some("a table of positions is integrated".to_owned())
         }

@@ -33,15 +33,14 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, _: &AtomicBool) -> Res
     if matches!(method, Method::Integrated | Method::Libration) {
         return Err(Error::NotBuilt { argument: "method", value: method.to_string() });
     }
-    let [a, b, c] = scene.body().moments();
     let bodies = scene.asked_disturbing().len();
-    if bodies > 0 && !(a == b && b == c) {
+    if bodies > 0 && !scene.body().is_sphere() {
         return Err(Error::NotBuilt { argument: "orbit", value: format!("{bodies} disturbing") });
     }
     if let Some(torque) = scene.asked_torques().first() {
         return Err(Error::NotBuilt { argument: "torques", value: torque.kind().to_owned() });
     }
-    let polhode = Polhode::new(scene.body(), scene.state());
+    let polhode = Polhode::of(&scene);
     free::motion(scene, polhode.as_ref(), Preparation::new(tables))
 }
 

@@ -2,10 +2,8 @@
 
 use super::free::{self, Preparation};
 use crate::error::Error;
-use crate::input::body::Body;
 use crate::input::options::Method;
 use crate::input::scene::Scene;
-use crate::input::state::State;
 use crate::motion::solved::Motion;
 use crate::torque_free::frequencies::Secular;
 use crate::torque_free::mode::Mode;
@@ -16,9 +14,8 @@ use crate::torque_free::series::tables::SeriesTables;
 /// motions have no remarks. A motion has some hundreds of bytes: it is used where it was made, because a copy of it takes 10 ns.
 pub(crate) fn several(scenes: Vec<Result<Scene, Error>>, mut each: impl FnMut(&Result<Motion, Error>)) {
     let tables = SeriesTables::default();
-    let states: Vec<(&Body, &State)> =
-        scenes.iter().flatten().filter(|scene| is_free(scene)).map(|scene| (scene.body(), scene.state())).collect();
-    let polhodes = Polhode::several(&states);
+    let free: Vec<&Scene> = scenes.iter().flatten().filter(|scene| is_free(scene)).collect();
+    let polhodes = Polhode::several(&free);
     let frequencies = Secular::several(&polhodes.iter().flatten().filter(wobbles).collect::<Vec<_>>());
     let (mut polhodes, mut frequencies) = (polhodes.iter(), frequencies.into_iter());
     for scene in scenes {

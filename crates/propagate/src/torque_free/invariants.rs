@@ -116,7 +116,7 @@ fn turning<S: InstructionSet>(simd: S, columns: &Columns<S>) -> Turning<S> {
     let by_squares = columns.by_squares;
     let mut parts = [one; 3];
     for (axis, part) in parts.iter_mut().enumerate() {
-        *part = DoubleDoubleLanes::product(columns.moments[axis], columns.rates[axis]);
+        *part = columns.moments[axis] * columns.rates[axis];
     }
     let (x, y, z) = (parts[0] * parts[0], parts[1] * parts[1], parts[2] * parts[2]);
     let total = x + y + z;
@@ -171,22 +171,23 @@ fn together<S: InstructionSet>(simd: S, columns: &Columns<S>) -> Together<S> {
     let turning = turning(simd, columns);
     let (parts, momentum, [s1, s2, _]) = (turning.parts, turning.momentum, turning.squares);
     // Differences of moments are exact, and are divided last.
-    let excesses = [DoubleDoubleLanes::sum(c, -a).over(a), DoubleDoubleLanes::sum(c, -b).over(b)];
+    let (upper, lower) = (c - b, b - a);
+    let excesses = [(c - a).over_pair(a), upper.over_pair(b)];
     let [first, second] = excesses;
     let (inverse_first, inverse_second) = (first.reciprocal(), second.reciprocal());
-    let between = DoubleDoubleLanes::from_lanes(c) * DoubleDoubleLanes::sum(b, -a);
-    let difference = between / DoubleDoubleLanes::product(a, b);
-    let divisor = DoubleDoubleLanes::from_lanes(a) * DoubleDoubleLanes::sum(c, -b);
+    let between = c * lower;
+    let difference = between / (a * b);
+    let divisor = a * upper;
     let terms = [parts[2] * divisor, parts[0] * between];
     let apart = terms[0] - terms[1];
     let q1 = apart / (divisor * turning.total);
     let q2 = (parts[2] + parts[1] * (difference * inverse_first)) / turning.total;
     let weights = s1 * inverse_second + s2 * inverse_first;
     let sine_squares = [s1 * (first * inverse_second) + s2, s1 + s2 * (second * inverse_first)];
-    let alpha = (first + second).times(a.all(0.5));
+    let alpha = (first + second).times(a.high.all(0.5));
     let gamma = (first * second).root_or_zero();
     let gamma = DoubleDoubleLanes { high: gamma.high * columns.sign, low: gamma.low * columns.sign };
-    let mean_rate = momentum.over(c);
+    let mean_rate = momentum.over_pair(c);
     let (least, greatest) = (q1.root_or_zero(), q2.root_or_zero());
     let elliptic = elliptic([q1, q2], [difference * weights, second * inverse_first, difference * inverse_first]);
     let [lower, upper] = elliptic.cosines;
@@ -203,7 +204,7 @@ fn together<S: InstructionSet>(simd: S, columns: &Columns<S>) -> Together<S> {
         gamma,
         kappa: alpha.high / gamma.high,
         mean_rate,
-        rates: [momentum.over(a).nearest(), momentum.over(b).nearest(), mean_rate.nearest()],
+        rates: [momentum.over(a.high).nearest(), momentum.over(b.high).nearest(), mean_rate.nearest()],
         agm: precise_mean(least, greatest),
         stretch: least / greatest,
         half_tangents: [

@@ -20,8 +20,9 @@ use andoyer_double::DoubleDouble;
 use super::columns::{Rotation, SortedState};
 use super::invariants::Invariants;
 use crate::input::body::Body;
+use crate::input::scene::Scene;
 use crate::input::state::State;
-use crate::numerics::scaling::{exponent, scaled};
+use crate::numerics::scaling::{exponent, scaled, scaled_pair};
 
 /// The body axes in the order of the theory. Axis C points along the user's axis, or against it if N < 0. Axis A is reversed if the axes would be left-handed
 /// otherwise.
@@ -38,7 +39,7 @@ pub(crate) struct Frame {
 impl Frame {
     /// The frame for these moments. `momentum` is a body vector whose component on axis 3 must become ≥ 0. Axis 3 is the axis of C, or of A for the long-axis
     /// mode.
-    pub(crate) fn new(moments: [f64; 3], momentum: [f64; 3], long_axis: bool) -> Self {
+    pub(crate) fn new(moments: [DoubleDouble; 3], momentum: [f64; 3], long_axis: bool) -> Self {
         Order::new(moments, momentum, long_axis).frame()
     }
 
@@ -65,10 +66,11 @@ struct Order {
 }
 
 impl Order {
-    fn new(moments: [f64; 3], momentum: [f64; 3], long_axis: bool) -> Self {
+    fn new(moments: [DoubleDouble; 3], momentum: [f64; 3], long_axis: bool) -> Self {
         let mut axes = [0, 1, 2];
         for (i, j) in [(0, 1), (1, 2), (0, 1)] {
-            if moments[axes[i]] > moments[axes[j]] {
+            let [one, other] = [i, j].map(|place| moments[axes[place]]);
+            if (one.high, one.low) > (other.high, other.low) {
                 axes.swap(i, j);
             }
         }
@@ -95,6 +97,10 @@ impl Order {
     fn sorted(&self, vector: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|i| self.signs[i] * vector[self.axes[i]])
     }
+
+    fn sorted_pairs(&self, vector: [DoubleDouble; 3]) -> [DoubleDouble; 3] {
+        std::array::from_fn(|i| vector[self.axes[i]].times_double(self.signs[i]))
+    }
 }
 
 /// The constant rotations on both sides of the Cayley–Klein parameters: the attitude is inertial · (a, b) · frame.
@@ -120,26 +126,26 @@ const SMALLEST_DIVISOR: f64 = 1e-4;
 struct Placed {
     frame: Frame,
     long_axis: bool,
-    moments: [f64; 3],
-    rates: [f64; 3],
+    moments: [DoubleDouble; 3],
+    rates: [DoubleDouble; 3],
     scales: (i32, i32),
 }
 
 impl Placed {
     /// `None` for a body at rest.
-    fn new(body: &Body, state: &State) -> Option<Self> {
-        let rates: [f64; 3] = state.angular_velocity.into();
+    fn new(body: &Body, precise_rates: [DoubleDouble; 3]) -> Option<Self> {
+        let rates = precise_rates.map(|rate| rate.high);
         let largest = rates.iter().fold(0.0_f64, |m, w| m.max(w.abs()));
         if largest == 0.0 {
             return None;
         }
         let scales = (exponent(body.sorted()[2]), exponent(largest));
-        let given = body.moments();
-        let moments = given.map(|moment| scaled(moment, -scales.0));
-        let scaled_rates = rates.map(|rate| scaled(rate, -scales.1));
+        let given = body.precise_moments();
+        let moments = given.map(|moment| scaled_pair(moment, -scales.0));
+        let scaled_rates = precise_rates.map(|rate| scaled_pair(rate, -scales.1));
         let order = |long_axis: bool| {
             let order = Order::new(given, rates, long_axis);
-            (order, order.axes.map(|axis| moments[axis]), order.sorted(scaled_rates))
+            (order, order.axes.map(|axis| moments[axis]), order.sorted_pairs(scaled_rates))
         };
         let short = order(false);
         let long_axis = beyond(short.1, short.2);
@@ -152,25 +158,26 @@ impl Placed {
     }
 
     fn with(self, invariants: Invariants) -> Polhode {
-        let Self { frame, long_axis, moments, scales, .. } = self;
-        Polhode { frame, long_axis, moments, scales, invariants }
+        let Self { frame, long_axis, moments: precise_moments, scales, .. } = self;
+        let moments = precise_moments.map(|moment| moment.high);
+        Polhode { frame, long_axis, moments, precise_moments, scales, invariants }
     }
 }
 
 /// Whether a motion, with its axes in the order of the short-axis mode, is in the long-axis mode: Q1 < 0. The two terms of Q1 are compared in doubles, and in
 /// double-double if rounding might decide.
-fn beyond([a, b, c]: [f64; 3], [first, second, third]: [f64; 3]) -> bool {
-    let (x, y, z) = (a * first, b * second, c * third);
-    if b == c {
+fn beyond([a, b, c]: [DoubleDouble; 3], [first, second, third]: [DoubleDouble; 3]) -> bool {
+    let (x, y, z) = (a.high * first.high, b.high * second.high, c.high * third.high);
+    let [upper, lower] = [c - b, b - a];
+    if upper.high == 0.0 {
         return a != c && x.abs() >= SMALLEST_TILT * (x * x + y * y + z * z).sqrt();
     }
-    let (least, greatest) = (z * z * (a * (c - b)), x * x * (c * (b - a)));
+    let (least, greatest) = (z * z * (a.high * upper.high), x * x * (c.high * lower.high));
     if (least - greatest).abs() > DECIDED * (least + greatest) && least + greatest > SMALLEST_SQUARE {
         return least < greatest;
     }
-    let [x, z] = [(a, first), (c, third)].map(|(moment, rate)| DoubleDouble::product(moment, rate));
-    let least = z * z * (DoubleDouble::from(a) * DoubleDouble::sum(c, -b));
-    let greatest = x * x * (DoubleDouble::from(c) * DoubleDouble::sum(b, -a));
+    let (x, z) = (a * first, c * third);
+    let (least, greatest) = (z * z * (a * upper), x * x * (c * lower));
     (least - greatest).high < 0.0
 }
 
@@ -182,6 +189,8 @@ pub(crate) struct Polhode {
     pub(crate) long_axis: bool,
     /// A, B, C divided by a power of two; C, B, A in the long-axis mode.
     pub(crate) moments: [f64; 3],
+    /// The same in double-double.
+    precise_moments: [DoubleDouble; 3],
     /// Binary exponents by which the moments and the rates were scaled.
     pub(crate) scales: (i32, i32),
     /// The constants that several bodies have computed at once.
@@ -193,14 +202,23 @@ impl Polhode {
     ///
     /// The motion is in the long-axis mode if Q1 < 0. If B = C, it is in the long-axis mode unless the rotation is about an axis perpendicular to axis 1.
     pub(crate) fn new(body: &Body, state: &State) -> Option<Self> {
-        let placed = Placed::new(body, state)?;
+        Self::placed(Placed::new(body, <[f64; 3]>::from(state.angular_velocity).map(DoubleDouble::from))?)
+    }
+
+    /// The polhode of the state of a valid scene, with its rates in double-double.
+    pub(crate) fn of(scene: &Scene) -> Option<Self> {
+        Self::placed(Placed::new(scene.body(), scene.precise_rates())?)
+    }
+
+    fn placed(placed: Placed) -> Option<Self> {
         let invariants = Invariants::of(&placed.given());
         Some(placed.with(invariants))
     }
 
-    /// The polhodes of several valid states, each to the bits of [`Polhode::new`].
-    pub(crate) fn several(states: &[(&Body, &State)]) -> Vec<Option<Self>> {
-        let placed: Vec<Option<Placed>> = states.iter().map(|(body, state)| Placed::new(body, state)).collect();
+    /// The polhodes of several valid scenes, each to the bits of [`Polhode::of`].
+    pub(crate) fn several(scenes: &[&Scene]) -> Vec<Option<Self>> {
+        let placed = |scene: &&Scene| Placed::new(scene.body(), scene.precise_rates());
+        let placed: Vec<Option<Placed>> = scenes.iter().map(placed).collect();
         let given: Vec<SortedState> = placed.iter().flatten().map(Placed::given).collect();
         let mut invariants = Invariants::several(&given).into_iter();
         let mut with = |placed: Placed| invariants.next().map(|invariants| placed.with(invariants));
@@ -216,7 +234,7 @@ impl Polhode {
     pub(crate) fn with_squares(&self, squares: [DoubleDouble; 2], momentum: f64) -> Self {
         let squares = [DoubleDouble::ZERO, squares[0], squares[1]];
         let rotation = Rotation::Squares(squares, momentum.into());
-        let given = SortedState { moments: self.moments, rotation, long_axis: self.long_axis };
+        let given = SortedState { moments: self.precise_moments, rotation, long_axis: self.long_axis };
         Self { invariants: Invariants::of(&given), ..self.clone() }
     }
 
@@ -309,7 +327,8 @@ mod tests {
             // With C = 1 the motion on the separatrix has ω3² = ω1² A (B − A)/(1 − B).
             let z = x * (a * (b - a) / (1.0 - b)).sqrt();
             let part = if k % 2 == 0 { 1.0 } else { -1.0 } * 10.0_f64.powi(-(k % 33));
-            let (moments, rates) = ([a, b, 1.0], [x, next() - 0.5, z * (1.0 + part)]);
+            let [moments, rates] =
+                [[a, b, 1.0], [x, next() - 0.5, z * (1.0 + part)]].map(|row| row.map(DoubleDouble::from));
             let given = SortedState { moments, rotation: Rotation::Rates(rates), long_axis: false };
             let negative = Invariants::of(&given).cosine_squares[0].high < 0.0;
             assert_eq!(beyond(moments, rates), negative, "{moments:?} {rates:?}");

@@ -1,0 +1,45 @@
+"""Bodies given by an inertia tensor: the tensor as given is what moves, to the error bound of the plan."""
+
+import numpy as np
+import pytest
+
+from andoyer import Body, Scene
+
+RATES = [0.6, -0.4, 0.9]
+# I11, I22, I33, I12, I13, I23, a time, and the attitude [x, y, z, w] then: Euler's equations of the tensor itself, about the user's axes, by Taylor series of order 36 in
+# reals of 113 bits.
+MOTIONS = {
+    "generic": (
+        [0.7891142904423339, 0.5924316878250426, 0.9184540217326239, 0.07866043918212665, -0.004830200311066387, -0.1737008215134468],
+        500.0,
+        [-0.3487617061728328, 0.39248718295770985, -0.7211306864014726, 0.4519840889361891],
+    ),
+    "needle": (
+        [0.9941766667828218, 0.023308411430741024, 0.9826649217864378, 0.07562885316559947, 0.010104322913270496, -0.13018351590403035],
+        200.0,
+        [-0.4423024502982012, 0.13346235367226877, -0.5234401103732121, -0.7159377022234162],
+    ),
+    "thin needle": (
+        [0.6595943110396224, 0.6518667694442936, 0.6885400195160838, 0.3442477887724376, -0.3256114441901021, 0.3292864983108728],
+        200.0,
+        [0.8145268567204106, -0.40195168295520706, 0.20417989503644932, -0.36509096772386596],
+    ),
+    "nearly symmetric": (
+        [1.008056948801498, 1.4177616112929072, 1.0741814399056946, -0.058016238359569636, 0.024447414246494128, -0.17604021660690694],
+        500.0,
+        [-0.2428937811235825, -0.16520843314374434, 0.6135446203045788, 0.7329882561166914],
+    ),
+    "products of 1e-13": ([1.0, 1.0, 2.0, 1e-13, 0.0, 0.0], 500.0, [-0.06418701903237868, -0.2983973599090628, 0.8112098889059072, -0.49877606029991456]),
+}
+
+
+@pytest.mark.parametrize("method", ["auto", "integrated"])
+@pytest.mark.parametrize("name", MOTIONS)
+def test_the_error_of_a_tensors_motion_is_within_its_bound_and_is_verified(name, method):
+    (a, b, c, d, e, f), time, true = MOTIONS[name]
+    body = Body.from_inertia([[a, d, e], [d, b, f], [e, f, c]])
+    motion = Scene(body, [0, 0, 0, 1], RATES, span=(0, time), tolerance=1e-9, method=method).solve()
+    found = motion.attitude(time)
+    error = 2 * min(np.linalg.norm(found - true), np.linalg.norm(found + true))
+    assert error <= motion.plan.error_bound <= 1e-9
+    assert not motion.verify(tolerance=1e-12).refuted
