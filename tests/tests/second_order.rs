@@ -284,16 +284,55 @@ fn a_wobble_as_slow_as_the_orbit_is_served_outside_its_resonance() {
     }
 }
 
+/// Error over the bound of second order, by the largest of 40 errors against an integration.
+fn error_over_bound((moments, attitude, rates): ([f64; 3], [f64; 4], [f64; 3]), orbit: Orbit, span: f64) -> f64 {
+    let state = State::new(0.0, attitude, rates).expect("a state");
+    let scene = Scene::new(Body::new(moments).expect("a body"), state).span(0.0, span).orbit(orbit).tolerance(1e-9);
+    let motion = scene.method(Method::Closed).level(Level::SecondOrder).solve().expect("served");
+    let times: Vec<f64> = (1..=40).map(|k| span * f64::from(k) / 40.0).collect();
+    let problem = andoyer_tests::integration::Problem { moments, orbit: None };
+    let truth = problem.integrate_under(&[orbit], 0.0, (attitude, rates), &times);
+    let error = times.iter().zip(&truth).fold(0.0_f64, |worst, (&time, &(reference, _))| {
+        worst.max(attitude_error(motion.at(time).expect("finite").attitude.coords.into(), reference))
+    });
+    error / motion.plan().error_bound()
+}
+
 #[test]
 fn the_forced_wobble_is_there_where_the_mean_wobble_is_zero() {
+    // A flyby. The mean σ of second order is 0 within 1e-6 of these rates across axis 3.
+    let orbit = Orbit::new(8.369148067300273e-6, 0.9940043713058949)
+        .and_then(|orbit| orbit.plane(0.6117050038046715, 4.054285736652765, 2.830963235260437))
+        .and_then(|orbit| orbit.time_of_pericentre(2.489175420509209))
+        .and_then(|orbit| orbit.attraction(7.603805682109071e-11))
+        .expect("an orbit");
+    let attitude = [-0.11266847508097921, 0.2522633682533933, -0.9456244068499953, 0.1716493196315508];
+    for shift in [0.0, 1e-9, 1e-8, -1e-7, 1e-7, 1e-6] {
+        let rates = [0.9999998954100854, -0.000244790748816463 + shift, 0.00012703419835193854];
+        let scene = ([0.6029949749504392, 0.9999849686222524, 1.0], attitude, rates);
+        let ratio = error_over_bound(scene, orbit, 20.2766964668385);
+        assert!(ratio <= 1.5, "{shift:e}: {ratio}");
+    }
     let random = &mut Uniform(5);
-    let mut failed = Vec::new();
-    for k in 0..32 {
+    for k in 0..12 {
         let scene = Family::MeanWobbleZero.random(k % 2 == 1, (Averaging::Spin, Level::SecondOrder), random);
-        let Ok(measured) = scene.measured() else { continue };
-        if measured.ratio() > 1.5 {
-            failed.push(format!("{k}: error {:.1e}, bound {:.1e}, {scene:?}", measured.error, measured.bound));
+        if let Ok(measured) = scene.measured() {
+            assert!(measured.ratio() <= 1.5, "{k}: {measured:?}, {scene:?}");
         }
     }
-    assert!(failed.is_empty(), "{failed:?}");
+}
+
+#[test]
+fn pairs_of_terms_that_do_not_return_next_to_a_sphere_are_in_the_average() {
+    // Two Ω are 23.1 n. Without the pairs the mean M has a part of second order that no rate of K2 balances, and the error is 12 times the bound.
+    let orbit = Orbit::new(0.08643227225401354, 0.6999184136622084)
+        .and_then(|orbit| orbit.plane(0.002000000333362239, 4.486212218872924, 4.264868694763983))
+        .and_then(|orbit| orbit.time_of_pericentre(55.951235142003604))
+        .and_then(|orbit| orbit.attraction(0.0492523232099925))
+        .expect("an orbit");
+    let attitude = [0.38871635338291144, -0.029381299353187108, 0.9188816900239064, 0.060768212083455106];
+    let rates = [0.7172785197186176, -0.005000834983381597, 0.6967722157026481];
+    let moments = [0.9999951372757337, 0.9999968725808501, 1.0];
+    let ratio = error_over_bound((moments, attitude, rates), orbit, 1185.3317808812585);
+    assert!(ratio <= 0.2, "{ratio}");
 }

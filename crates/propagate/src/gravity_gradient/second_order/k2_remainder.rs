@@ -8,14 +8,16 @@
 //! ```
 //!
 //! with h > 0 for m = 0, and X₁, X₂ the turns of the frame about its axes 1 and 2. The closed form of K2 has 1/Ω − jn/Ω² for G. This
-//! file adds (jn)²/(Ω² (Ω + jn)) for terms with sums over time derivatives, and all of G for slow terms. A harmonic whose solution vanishes at the epoch has no part in K2. The derivatives are taken at the epoch. The component of
+//! file adds (jn)²/(Ω² (Ω + jn)) for terms with sums over time derivatives, and all of G for slow terms, and pairs of different terms ([`super::k2_slow_pairs`]). A harmonic whose solution vanishes at the epoch has no part in K2. The derivatives are taken at the epoch. The component of
 //! ∂K2/∂k along the orbit's normal n̂ is kept along n̂; the other component, of the order of e², is constant in inertial axes.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use super::k2_slow_pairs::slow_pairs;
 use crate::gravity_gradient::constants::{CUTOFF, NEAREST_IN_K2};
 use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
+use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::terms::term::Term;
 use crate::numerics::C64;
@@ -36,14 +38,14 @@ impl SteadyRates {
     /// The constant rates, from the slow terms among `exact` and the terms with sums over time derivatives.
     pub(crate) fn new(
         inertia: &Inertia,
-        frame: &UnitQuaternion<f64>,
+        mean: &Mean,
         disturbance: &Disturbance<'_>,
         terms: (&[ExactTerm], &[Term]),
     ) -> Self {
         let rates = |series: &OrbitSeries| {
-            Remainder::new(inertia, frame, (disturbance, series), terms).rates(
+            Remainder::new(inertia, mean, (disturbance, series), terms).rates(
                 inertia,
-                frame,
+                &mean.frame,
                 &disturbance.path.axes[2],
             )
         };
@@ -59,12 +61,14 @@ pub(crate) struct Remainder {
     by_sigma: f64,
     by_momentum: f64,
     turned: [f64; 2],
+    /// Γ².
+    scale: f64,
 }
 
 impl Remainder {
     pub(crate) fn new(
         inertia: &Inertia,
-        frame: &UnitQuaternion<f64>,
+        mean: &Mean,
         (disturbance, series): (&Disturbance<'_>, &OrbitSeries),
         (exact, summed): (&[ExactTerm], &[Term]),
     ) -> Self {
@@ -75,7 +79,7 @@ impl Remainder {
         let slow = exact.iter().filter(|term| term.divisors.slow);
         let slow = slow.map(|term| (Term::new(inertia, term.numbers.0, term.numbers.1), Some(&term.divisors)));
         let terms: Vec<_> = slow.chain(summed.iter().map(|term| (*term, divisors(term)))).collect();
-        let (tensors, _) = products_at(frame, disturbance.orbit.axes());
+        let (tensors, _) = products_at(&mean.frame, disturbance.orbit.axes());
         let tensors = tensors.map(|tensor| [tensor, about_first(&tensor), about_second(&tensor)]);
         let of_harmonic = |multiple: i32, j: i32| {
             let coefficients = series.at(j);
@@ -85,8 +89,7 @@ impl Remainder {
             }))
         };
         let (highest, scale) = (highest(series), disturbance.strength().powi(2));
-        let product = |[a, b]: [f64; 2], [c, d]: [f64; 2]| scale * (a * c + b * d);
-        let mut sums = Self::default();
+        let mut sums = Self { scale, ..Self::default() };
         for multiple in 0..=2 {
             let harmonics: Vec<_> = (-highest..=highest).map(|j| (j, of_harmonic(multiple, j))).collect();
             for (term, divisors) in terms.iter().filter(|(term, _)| term.multiple == multiple) {
@@ -104,18 +107,32 @@ impl Remainder {
                         }
                         _ => continue,
                     };
-                    let [value, by_sigma, by_momentum] = shape(term, inertia, of_frequency);
-                    #[cfg(test)]
-                    {
-                        sums.value += product(*still, value);
+                    sums.add((*still, *turned), shape(term, inertia, of_frequency));
+                }
+            }
+            for pair in slow_pairs(&terms, multiple, inertia, (mean.p.arg(), disturbance.duration)) {
+                for (j, [still, turned @ ..]) in &harmonics {
+                    if let Some(shape) = pair.shape(inertia, (*j, disturbance.mean_motion)) {
+                        sums.add((*still, *turned), shape);
                     }
-                    sums.by_sigma += product(*still, by_sigma);
-                    sums.by_momentum += product(*still, by_momentum);
-                    sums.turned = [0, 1].map(|i| sums.turned[i] + product(turned[i], value));
                 }
             }
         }
         sums
+    }
+
+    /// Adds a term's or a pair's factors of α and of β, with their derivatives with respect to σ and M, at one harmonic.
+    fn add(&mut self, (still, turned): ([f64; 2], [[f64; 2]; 2]), [value, by_sigma, by_momentum]: [[f64; 2]; 3]) {
+        let product = |[a, b]: [f64; 2], [c, d]: [f64; 2]| self.scale * (a * c + b * d);
+        let (sigma, momentum) = (product(still, by_sigma), product(still, by_momentum));
+        let [first, second] = turned.map(|turned| product(turned, value));
+        #[cfg(test)]
+        {
+            self.value += product(still, value);
+        }
+        self.by_sigma += sigma;
+        self.by_momentum += momentum;
+        self.turned = [self.turned[0] + first, self.turned[1] + second];
     }
 
     pub(crate) fn rates(&self, inertia: &Inertia, frame: &UnitQuaternion<f64>, normal: &Vector3<f64>) -> SteadyRates {
@@ -170,7 +187,7 @@ fn highest(series: &OrbitSeries) -> i32 {
 }
 
 /// 1/(Ω + jn) and its derivatives with respect to Ω.
-fn reciprocal(divisor: f64) -> [f64; 3] {
+pub(super) fn reciprocal(divisor: f64) -> [f64; 3] {
     let inverse = divisor.recip();
     [inverse, -inverse * inverse, 2.0 * inverse.powi(3)]
 }

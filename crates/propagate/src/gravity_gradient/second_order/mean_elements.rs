@@ -54,12 +54,8 @@ impl SecondOrderData {
             terms.extend(slow_terms(inertia, slow_limit));
         }
         let first = first_actions(&at_epoch, &terms, harmonics.as_ref().map(|harmonics| (harmonics, exact)));
-        let steady = SteadyRates::new(
-            inertia,
-            &mean.frame,
-            disturbance,
-            (exact, &fast_terms(inertia, CUTOFF.sqrt(), slow_limit)),
-        );
+        let steady =
+            SteadyRates::new(inertia, mean, disturbance, (exact, &fast_terms(inertia, CUTOFF.sqrt(), slow_limit)));
         let terms = fast_terms(inertia, CUTOFF, slow_limit);
         let exact = harmonics.as_ref().map(|harmonics| split(&at_epoch, exact, harmonics)).unwrap_or_default();
         let average = harmonics.map(|harmonics| harmonics.average(&PairTerm::average(&at_epoch))).unwrap_or_default();

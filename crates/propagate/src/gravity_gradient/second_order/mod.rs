@@ -7,6 +7,7 @@
 pub(crate) mod k2;
 pub(crate) mod k2_orbit_mean;
 pub(crate) mod k2_remainder;
+mod k2_slow_pairs;
 pub(crate) mod mean_elements;
 mod pair_harmonics;
 mod pair_terms;

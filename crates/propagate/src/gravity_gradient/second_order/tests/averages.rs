@@ -70,9 +70,10 @@ fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
         let scale = disturbance.strength();
         let inertia = Inertia::new(&scene.polhode, p.norm_sqr(), momentum);
         let lacking = |inertia: &Inertia, frame: &UnitQuaternion<f64>| {
+            let mean = Mean { frame: *frame, ..scene.mean };
             Remainder::new(
                 inertia,
-                frame,
+                &mean,
                 (&disturbance, &series),
                 (&[], &fast_terms(inertia, 1e-3, slow_limit(&disturbance))),
             )
