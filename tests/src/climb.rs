@@ -295,7 +295,10 @@ impl Family {
 fn nearly_without_wobble(scene: Disturbed, part: &[f64]) -> Disturbed {
     let refined = scene.level == Level::SecondOrder || scene.averaging == Averaging::Orbit;
     let scene = match (refined, (4.0 * part[6]) as usize) {
-        (true, 0 | 1) | (false, 0) => Disturbed { orbit: with_eccentricity(scene.orbit, 0.0), ..scene },
+        (true, 0 | 1) | (false, 0) => {
+            let [mean_motion, _, pericentre, inclination, node, argument] = scene.orbit;
+            Disturbed { orbit: [mean_motion, 0.0, pericentre, inclination, node, argument], ..scene }
+        }
         (false, 1) => Family::Precessing.extended(scene, part),
         (false, 2) => Family::TwoBodies.extended(scene, part),
         _ => scene,
@@ -310,11 +313,6 @@ fn nearly_without_wobble(scene: Disturbed, part: &[f64]) -> Disturbed {
     let wobble = if part[8] < 0.1 { 0.0 } else { power(-9.0, -3.0, part[8]) };
     let (across, along) = (TAU * part[9]).sin_cos();
     without_mean_wobble(scene, axis, [across, along].map(|way| wobble * way)).unwrap_or(scene)
-}
-
-fn with_eccentricity([mean_motion, _, elements @ ..]: [f64; 6], eccentricity: f64) -> [f64; 6] {
-    let [pericentre, inclination, node, argument] = elements;
-    [mean_motion, eccentricity, pericentre, inclination, node, argument]
 }
 
 /// The scene with another mean motion n, for which |Ω + jn| of a term times the span is 1e-4 to 2: `part` chooses the term, j and Ω + jn.
