@@ -13,7 +13,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::k2_slow_pairs::slow_pairs;
+use super::k2_slow_pairs::{reciprocal, slow_pairs};
 use crate::gravity_gradient::constants::{CUTOFF, NEAREST_IN_K2};
 use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
@@ -184,12 +184,6 @@ fn highest(series: &OrbitSeries) -> i32 {
         .collect();
     let largest = sizes.iter().copied().fold(0.0, f64::max);
     sizes.iter().rposition(|size| *size > CUTOFF.sqrt() * largest).unwrap_or(0) as i32
-}
-
-/// 1/(Ω + jn) and its derivatives with respect to Ω.
-pub(super) fn reciprocal(divisor: f64) -> [f64; 3] {
-    let inverse = divisor.recip();
-    [inverse, -inverse * inverse, 2.0 * inverse.powi(3)]
 }
 
 /// 1/Ω − jn/Ω² and its derivatives with respect to Ω, for a harmonic of frequency jn.

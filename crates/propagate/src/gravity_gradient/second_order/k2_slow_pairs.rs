@@ -10,19 +10,18 @@
 //! with h_b > 0 and any h_a for m = 0. ℓ′ is that of the epoch, ω is the rate of the angle, and the exponential is the complement of the factor of χ₂ in equation (7). A pair of
 //! ⟨D⟩ with W_b counts twice, because its source is {⟨D⟩, W}.
 
-use super::k2_remainder::reciprocal;
 use crate::gravity_gradient::constants::{LOG_CUTOFF, NEAREST_IN_K2};
 use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::terms::divisors::Divisors;
 use crate::gravity_gradient::terms::term::Term;
 
 /// h, and F with its first two derivatives with respect to σ.
-type Amplitude = (f64, [f64; 3]);
+type PairedAmplitude = (f64, [f64; 3]);
 
 /// A term of the torque, one of W, and the factor cos((h_a − h_b) ℓ′) e^(−ω² span²/4).
 pub(crate) struct SlowPair<'a> {
-    torque: Amplitude,
-    wave: Amplitude,
+    torque: PairedAmplitude,
+    wave: PairedAmplitude,
     /// The term of W and its exact divisors, if it has these.
     pub(crate) term: (&'a Term, Option<&'a Divisors>),
     factor: f64,
@@ -43,7 +42,7 @@ pub(crate) fn slow_pairs<'a>(
     let sigma = inertia.root().powi(2);
     let amplitude = |term: &Term| (f64::from(term.harmonic), of_degree(term.harmonic.abs(), term.weighted(), sigma));
     let waves: Vec<_> = terms.iter().filter(|(term, _)| term.multiple == multiple).collect();
-    let mut torques: Vec<(Amplitude, f64)> = waves.iter().map(|(term, _)| (amplitude(term), 1.0)).collect();
+    let mut torques: Vec<(PairedAmplitude, f64)> = waves.iter().map(|(term, _)| (amplitude(term), 1.0)).collect();
     if multiple == 0 {
         let opposite: Vec<_> = torques.iter().map(|((h, function), weight)| ((-h, *function), *weight)).collect();
         torques.extend(opposite);
@@ -106,4 +105,10 @@ fn of_degree(degree: i32, [f, slope, curvature]: [f64; 3], sigma: f64) -> [f64; 
         (slope + falling * f) * power,
         (curvature + 2.0 * falling * slope + falling * (d - 1.0) / sigma * f) * power,
     ]
+}
+
+/// 1/(Ω + jn) and its derivatives with respect to Ω.
+pub(super) fn reciprocal(divisor: f64) -> [f64; 3] {
+    let inverse = divisor.recip();
+    [inverse, -inverse * inverse, 2.0 * inverse.powi(3)]
 }
