@@ -62,11 +62,13 @@ fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
     const FAST: f64 = 2e-3;
     let reach = Reach { eccentricity: ECCENTRICITY, anomaly: 0.0, sides: [10.0 * std::f64::consts::TAU; 2] };
     let series = series(&reach).expect("a series");
-    for scene in Scene::all() {
+    // In a long span the angle of every pair of different terms returns; in a span of 0 none does.
+    let scenes = Scene::all();
+    for (scene, duration) in scenes.into_iter().flat_map(|scene| [(scene.clone(), 1e9), (scene, 0.0)]) {
         let Mean { p, momentum, frame, .. } = scene.mean;
         let orbit = Orbit::new(FAST, ECCENTRICITY).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
         let scene = Scene { orbit, ..scene };
-        let disturbance = Disturbance { series: Some(series.clone()), ..scene.disturbance() };
+        let disturbance = Disturbance { series: Some(series.clone()), duration, ..scene.disturbance() };
         let scale = disturbance.strength();
         let inertia = Inertia::new(&scene.polhode, p.norm_sqr(), momentum);
         let lacking = |inertia: &Inertia, frame: &UnitQuaternion<f64>| {
@@ -94,7 +96,7 @@ fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
         }
         let found = value / (scale * scale);
         // Terms with a share of 1e-6 of it are left out, and harmonics likewise.
-        assert!((found / mean - 1.0).abs() <= 2e-3, "{found:e} {mean:e}");
+        assert!(duration == 0.0 || (found / mean - 1.0).abs() <= 2e-3, "{found:e} {mean:e}");
         // Its derivatives against differences.
         let at = |sigma: f64, momentum: f64, frame: &UnitQuaternion<f64>| {
             lacking(&Inertia::new(&scene.polhode, sigma, momentum), frame).value
