@@ -164,12 +164,12 @@ impl Scene {
     /// The same scene with another state. The span stays.
     #[must_use]
     pub fn with_state(&self, state: State) -> Self {
-        Self { state, ..self.clone() }
+        Self { state, rate_lows: [0.0; 3], ..self.clone() }
     }
 
     /// The same scene with another body and another state.
     pub(crate) fn starting_from(&self, body: Body, state: State) -> Self {
-        Self { body, state, ..self.clone() }
+        Self { body, state, rate_lows: [0.0; 3], ..self.clone() }
     }
 
     /// The body.

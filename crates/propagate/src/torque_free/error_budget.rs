@@ -70,11 +70,9 @@ pub(crate) fn drift(scene: &Scene, exact: &Secular, secular: &Secular, exponent:
     (FRAC_2_PI * quarter * anomaly + longitude) * duration(scene, exact.longitude_rate, exponent)
 }
 
-/// Error over the span from the rounding of frequencies and phases \[rad\]. The principal moments of a tensor have the rounding error of the largest one.
+/// Error over the span from the rounding of frequencies and phases \[rad\].
 pub(crate) fn phase_rounding(scene: &Scene, rate: DoubleDouble, exponent: i32) -> f64 {
-    let [least, _, greatest] = scene.body().sorted();
-    let thinness = if scene.body().has_tensor() { greatest / least } else { 0.0 };
-    PHASE_ROUNDING * (1.0 + thinness) * rate.to_f64() * duration(scene, rate, exponent)
+    PHASE_ROUNDING * rate.to_f64() * duration(scene, rate, exponent)
 }
 
 /// The longest time from the epoch at which the tolerance must hold, in the scaled unit.
