@@ -102,11 +102,12 @@ def test_table_of_a_straight_path_is_not_passed_over_where_it_is_nearest():
     assert angle(one.attitude(40.0), other.attitude(40.0)) < one.plan.error_bound + other.plan.error_bound < 1e-9
 
 
-def orbit_and_table(points, eccentricity, mean_motion, fraction, span):
-    """An orbit, and a table of it with so many points an orbit about the span."""
+def orbit_and_table(points, eccentricity, mean_motion, fraction, span, after=0.0):
+    """An orbit, and a table of it with so many points an orbit about the span, the first of them this part of their distance after a pericentre."""
     step = 2 * math.pi / mean_motion / points
-    times = np.arange(math.floor(span[0] / step) - 4, math.ceil(span[1] / step) + 5) * step
+    times = (np.arange(math.floor(span[0] / step) - 4, math.ceil(span[1] / step) + 5) + after) * step
     anomaly = mean_motion * times
+    anomaly = anomaly + 0.85 * eccentricity * np.sign(np.sin(anomaly))
     for _ in range(100):
         anomaly = anomaly - (anomaly - eccentricity * np.sin(anomaly) - mean_motion * times) / (1 - eccentricity * np.cos(anomaly))
     positions = np.stack([np.cos(anomaly) - eccentricity, math.sqrt(1 - eccentricity**2) * np.sin(anomaly), 0 * times], axis=1)
@@ -135,6 +136,31 @@ def test_interpolation_error_of_coarse_tables_is_within_the_bound():
         times = np.linspace(*span, 60)
         ratios.append(angle(motion.attitude(times), exact.attitude(times)).max() / motion.plan.error_bound)
     assert len(ratios) > 120 and max(ratios) <= 1
+
+
+def test_table_that_passes_over_a_pericentre_is_refused_or_its_error_is_within_the_bound():
+    # All three polynomials pass such a pericentre far outside and agree: errors were up to 3,000 times the bound.
+    random = np.random.default_rng(15)
+    ratios, refused = [], 0
+    for _ in range(60):
+        body, attitude, rates = Body([random.uniform(0.5, 0.75), 0.8, 1.0]), random.normal(size=4), random.normal(size=3)
+        state = (attitude / np.linalg.norm(attitude), rates / np.linalg.norm(rates))
+        points, eccentricity, start = round(8 * 25 ** random.uniform()), random.uniform(0.7, 0.95), random.uniform(0, 6)
+        span = np.array([start, start + random.uniform(4, 10)]) / 0.1
+        orbit, table = orbit_and_table(points, eccentricity, 0.1, 10 ** random.uniform(-4, -1) * (1 - eccentricity), span, random.uniform())
+        options = {"epoch": span[0], "span": tuple(span), "method": "integrated"}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            exact = Scene(body, *state, orbit=orbit, tolerance=1e-9, **options).solve()
+            try:
+                motion = Scene(body, *state, orbit=table, tolerance=1e-4, **options).solve()
+            except andoyer.InputError as error:
+                assert error.argument == "times" and "nearer to the time before it" in str(error)
+                refused += 1
+                continue
+        times = np.linspace(*span, 60)
+        ratios.append(angle(motion.attitude(times), exact.attitude(times)).max() / (motion.plan.error_bound + exact.plan.error_bound))
+    assert refused > 20 and len(ratios) > 10 and max(ratios) <= 1
 
 
 def test_tolerance_that_a_table_misses_by_its_interpolation_is_said_to_be_so():

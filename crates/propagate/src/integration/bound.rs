@@ -30,8 +30,6 @@ use crate::simd::instruction_set::{InstructionSet, Task};
 
 /// Least and largest safety factor: the bound is the largest distance of the displaced states times a number in this interval.
 pub(super) const SAFETY: [f64; 2] = [2.0, 4.0];
-/// The error by the interpolation of tables, over the largest distance of the motions with the two neighbouring polynomials.
-const OF_INTERPOLATION: f64 = 8.0;
 /// The most times at which the motion and the displaced states are compared.
 const COMPARISONS: usize = 256;
 /// The fewest steps of the motion between two comparisons.
@@ -327,11 +325,11 @@ impl Task for ReinterpolatedSteps<'_> {
     }
 }
 
-/// Adds the largest departure of two other interpolations to an error bound. Beyond [`LOST`] the bound is half a turn.
-pub(super) fn with_interpolation(bound: &mut Profile, departures: &[Profile; 2]) {
+/// Adds a multiple of the largest departure of two other interpolations to an error bound. Beyond [`LOST`] the bound is half a turn.
+pub(super) fn with_interpolation(bound: &mut Profile, departures: &[Profile; 2], of_interpolation: f64) {
     let [one, other] = departures;
     for ((entry, one), other) in bound.iter_mut().zip(one).zip(other) {
-        let departure = OF_INTERPOLATION * worse(one.1, other.1);
+        let departure = of_interpolation * worse(one.1, other.1);
         entry.1 = if departure < LOST { (entry.1 + departure).min(PI) } else { PI };
     }
 }

@@ -10,7 +10,7 @@ use super::bound::{FLOOR, MeasuredSteps, Profile, ReinterpolatedSteps, with_inte
 use super::expansion::Equations;
 use super::integrator::{KeptSteps, Precision, Runner, Side, Step};
 use super::path_series::PathSeries;
-use super::rates::{covered, rates_of_orbit, rates_of_sources, rates_of_table, too_coarse};
+use super::rates::{covered, of_interpolation, rates_of_orbit, rates_of_sources, rates_of_table, too_coarse};
 use super::series::{Row, largest};
 use super::step_errors::StepErrors;
 use super::torques::Torques;
@@ -165,6 +165,7 @@ pub(super) struct Problem {
     reach: [f64; 2],
     /// Number of torques beside the gravity gradient.
     torques: usize,
+    of_interpolation: f64,
 }
 
 impl Problem {
@@ -192,6 +193,7 @@ impl Problem {
             square += least * least;
         }
         let sources = rates_of_sources(scene, (start, stop))?;
+        let of_interpolation = of_interpolation(scene, (start, stop))?;
         (fastest, lasting, secular) = (fastest.max(sources[0]), lasting.max(sources[1]), secular.max(sources[2]));
         if let Some(torques) = Torques::new(scene, 0, false) {
             let [rate, least] = torques.rates();
@@ -220,6 +222,7 @@ impl Problem {
             ends: [end(start), end(stop)],
             reach: [start - epoch, stop - epoch],
             torques: scene.asked_torques().len(),
+            of_interpolation,
         })
     }
 
@@ -323,7 +326,11 @@ impl Problem {
             share = errors.systematic_share().into_iter().fold(share, f64::max);
             uninterpolated = uninterpolated.max(largest(profile));
             if self.tabulated() && steps.len() > 1 {
-                with_interpolation(profile, &self.departures(steps, precision, side == 0, stop)?);
+                with_interpolation(
+                    profile,
+                    &self.departures(steps, precision, side == 0, stop)?,
+                    self.of_interpolation,
+                );
             }
             bound = bound.max(largest(profile));
         }

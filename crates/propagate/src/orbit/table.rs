@@ -2,7 +2,9 @@
 //!
 //! Between two times the position is the polynomial of degree seven through the eight nearest times. The error bound of a motion contains the interpolation
 //! error, which is estimated with the polynomials through eight times that begin one earlier and one later. Where the eighth derivative is constant, they differ
-//! from the polynomial by 2 to 2.7 times its error, in the direction of the error.
+//! from the polynomial by 2 to 2.7 times its error, in the direction of the error. Where the polynomials do not converge, because a pericentre lies between few
+//! times, all of them pass it far outside and agree on a torque that is too weak. A table is therefore
+//! refused if the departure in the middle of an interval is a tenth of the distance.
 
 use nalgebra::Vector3;
 
@@ -142,16 +144,21 @@ impl TabulatedOrbit {
         (if (asked, count) == (own, NODES) { other } else { asked }, count)
     }
 
-    /// The interval between two times in which a neighbouring polynomial departs most from its own, relative to the distance.
+    /// The interval between two times in which a neighbouring polynomial departs most from its own, and that departure in the middle over the least distance of the
+    /// path, taken as two chords.
     pub(crate) fn coarsest(&self, start: f64, stop: f64) -> (usize, f64) {
         let departure = |interval: usize| {
             let middle = 0.5 * self.times[interval] + 0.5 * self.times[interval + 1];
-            let at = |(start, count)| Vector3::from(self.through(start, count, middle));
+            // Squares of lengths are doubles in this unit.
+            let unit = Vector3::from(self.positions[interval]).amax();
+            let at = |(start, count)| Vector3::from(self.through(start, count, middle)) / unit;
             let own = at((self.first_node(interval, NODES), NODES));
             let [one, other] = [true, false].map(|earlier| (at(self.neighbour(interval, earlier)) - own).norm());
-            one.max(other) / own.norm()
+            let nearest = |end: usize| distance_of_chord(own, Vector3::from(self.positions[end]) / unit);
+            one.max(other) / nearest(interval).min(nearest(interval + 1))
         };
-        let intervals = self.interval(start)..=self.interval(stop);
+        let last = self.times.partition_point(|knot| *knot < stop).clamp(1, self.times.len() - 1) - 1;
+        let intervals = self.interval(start)..=last.max(self.interval(start));
         let intervals = intervals.map(|interval| (interval, departure(interval)));
         intervals.max_by(|one, other| one.1.total_cmp(&other.1)).unwrap_or((0, 0.0))
     }
@@ -186,4 +193,11 @@ impl TabulatedOrbit {
     pub(crate) fn first_node(&self, interval: usize, count: usize) -> usize {
         (interval + 1).saturating_sub(count / 2).min(self.times.len() - count)
     }
+}
+
+/// The least distance of a chord from the origin.
+fn distance_of_chord(start: Vector3<f64>, stop: Vector3<f64>) -> f64 {
+    let chord = stop - start;
+    let part = (-start.dot(&chord) / chord.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (start + part * chord).norm()
 }
