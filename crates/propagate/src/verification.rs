@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::input::options::Method;
+use crate::input::principal_axes::{Square, UNIT};
 use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::motion::plan::{LONGEST_VERIFICATION, bound_in_words};
@@ -197,7 +198,7 @@ impl Motion {
             attitude: attitude * next_axes(),
             angular_velocity: Vector3::new(rates.y, rates.z, rates.x),
         };
-        let torques: Vec<_> = given.asked_torques().iter().map(|torque| torque.turned(&next_axes())).collect();
+        let torques: Vec<_> = given.asked_torques().iter().map(|torque| torque.turned(&NEXT_AXES)).collect();
         let mut scene = given.starting_from(given.body().about_next_axes()?, state).torques(torques);
         if given.body().is_sphere() {
             // No body exerts a torque on a sphere, and a table need not reach over the span.
@@ -243,6 +244,9 @@ impl Motion {
         })
     }
 }
+
+/// The axes (2, 3, 1) as columns.
+const NEXT_AXES: Square = [UNIT[2], UNIT[0], UNIT[1]];
 
 /// The rotation from components about the axes (2, 3, 1) to components about (1, 2, 3): a third of a turn about the diagonal.
 fn next_axes() -> UnitQuaternion<f64> {

@@ -7,7 +7,7 @@ use andoyer_double::DoubleDouble;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::catalogue;
-use super::principal_axes::{Square, principal_axes, rounded};
+use super::principal_axes::{Square, UNIT, along, principal_axes, rounded};
 use crate::error::Error;
 
 /// Tolerance of the triangle inequality, which accepts a flat body given in rounded decimals.
@@ -194,14 +194,12 @@ impl Body {
 
     /// A vector about the user's axes in components about the principal axes.
     pub(crate) fn along_principal_axes(&self, vector: Vector3<f64>) -> [DoubleDouble; 3] {
-        let component = |axes: &Square, column: usize| {
-            let term = |row: usize| axes[row][column].times_double(vector[row]);
-            term(0) + term(1) + term(2)
-        };
-        match &self.tensor {
-            Some(tensor) => std::array::from_fn(|column| component(&tensor.precise_axes, column)),
-            None => <[f64; 3]>::from(vector).map(DoubleDouble::from),
-        }
+        along(&self.precise_axes(), vector.into())
+    }
+
+    /// The principal axes as columns in double-double.
+    pub(crate) fn precise_axes(&self) -> Square {
+        self.tensor.as_ref().map_or(UNIT, |tensor| tensor.precise_axes)
     }
 
     /// The moments in double-double: those of a tensor are not rounded.

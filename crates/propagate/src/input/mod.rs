@@ -3,7 +3,7 @@
 pub(crate) mod body;
 mod catalogue;
 pub(crate) mod options;
-mod principal_axes;
+pub(crate) mod principal_axes;
 pub(crate) mod scene;
 pub(crate) mod state;
 pub(crate) mod torque;

@@ -22,8 +22,7 @@ pub(crate) fn principal_axes(tensor: &Square) -> ([DoubleDouble; 3], Square) {
     let largest = tensor.iter().flatten().fold(0.0_f64, |most, entry| most.max(entry.high.abs()));
     let unit = exponent(largest);
     let mut left = tensor.map(|row| row.map(|entry| scaled_pair(entry, -unit)));
-    let mut axes: Square =
-        std::array::from_fn(|i| std::array::from_fn(|j| if i == j { DoubleDouble::ONE } else { DoubleDouble::ZERO }));
+    let mut axes = UNIT;
     for _ in 0..MOST_SWEEPS {
         let mut turned = false;
         for (i, j) in [(0, 1), (0, 2), (1, 2)] {
@@ -64,8 +63,31 @@ fn turn_columns(matrix: &mut Square, (i, j): (usize, usize), [cosine, sine]: [Do
     }
 }
 
-fn transposed(matrix: &Square) -> Square {
+pub(crate) fn transposed(matrix: &Square) -> Square {
     std::array::from_fn(|i| std::array::from_fn(|j| matrix[j][i]))
+}
+
+/// The unit matrix.
+pub(crate) const UNIT: Square = [
+    [DoubleDouble::ONE, DoubleDouble::ZERO, DoubleDouble::ZERO],
+    [DoubleDouble::ZERO, DoubleDouble::ONE, DoubleDouble::ZERO],
+    [DoubleDouble::ZERO, DoubleDouble::ZERO, DoubleDouble::ONE],
+];
+
+/// A vector in components along the columns.
+pub(crate) fn along(axes: &Square, vector: [f64; 3]) -> [DoubleDouble; 3] {
+    std::array::from_fn(|column| {
+        let term = |row: usize| axes[row][column].times_double(vector[row]);
+        term(0) + term(1) + term(2)
+    })
+}
+
+pub(crate) fn product(one: &Square, other: &Square) -> Square {
+    let entry = |i: usize, j: usize| {
+        let term = |k: usize| one[i][k] * other[k][j];
+        term(0) + term(1) + term(2)
+    };
+    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
 }
 
 /// The nearest doubles.

@@ -153,7 +153,7 @@ impl Scene {
         let rates = self.body.along_principal_axes(angular_velocity);
         let angular_velocity = rates.map(|rate| rate.high).into();
         let state = State { epoch, attitude: attitude * turn, angular_velocity };
-        let torques = self.torques.iter().map(|torque| torque.turned(&turn)).collect();
+        let torques = self.torques.iter().map(|torque| torque.turned(&self.body.precise_axes())).collect();
         Self {
             torques,
             rate_lows: rates.map(|rate| rate.low),

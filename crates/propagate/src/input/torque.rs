@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
+use andoyer_double::DoubleDouble;
 use andoyer_series::Polynomial;
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
+use super::principal_axes::{Square, UNIT, along, product, rounded, transposed};
 use crate::error::Error;
 use crate::orbit::elements::Orbit;
 use crate::orbit::table::TabulatedOrbit;
@@ -51,7 +53,7 @@ pub struct PolynomialTorque {
     /// The terms of each component: a coefficient, and the exponents of the components of the sources in their sequence and of ω.
     terms: [Vec<(f64, Vec<u32>)>; 3],
     /// The rotation from components about the axes of the scene to those of the texts.
-    turn: UnitQuaternion<f64>,
+    turn: Square,
 }
 
 /// A source that a polynomial names.
@@ -204,7 +206,7 @@ impl Torque {
         let names: Vec<String> = names.flat_map(|name| (1..=3).map(move |axis| format!("{name}{axis}"))).collect();
         let [first, second, third] = texts.map(|text| parsed(text, &names));
         let texts = texts.map(str::to_owned);
-        let turn = UnitQuaternion::identity();
+        let turn = UNIT;
         Ok(Self::Polynomial(Arc::new(PolynomialTorque { texts, sources, terms: [first?, second?, third?], turn })))
     }
 
@@ -227,20 +229,19 @@ impl Torque {
         self.validate().map(|()| self)
     }
 
-    /// The same torque about other axes; `turn` is the rotation from components about them to components about the old ones.
-    pub(crate) fn turned(&self, turn: &UnitQuaternion<f64>) -> Self {
-        let vector = |given: &[f64; 3]| (turn.inverse() * Vector3::from(*given)).into();
+    /// The same torque about other axes, the columns of a rotation in the old components. Double-double keeps the digits of a small component, which may turn a body
+    /// about an axis with a small moment.
+    pub(crate) fn turned(&self, axes: &Square) -> Self {
+        let vector = |given: &[f64; 3]| along(axes, *given).map(DoubleDouble::to_f64);
         match self {
             Self::Constant(torque) => Self::Constant(vector(torque)),
             Self::Rotor(momentum) => Self::Rotor(vector(momentum)),
             Self::Damping(rows) => {
-                let matrix = Matrix3::from_fn(|i, k| rows[i][k]);
-                let turn = turn.to_rotation_matrix();
-                let matrix = turn.transpose() * matrix * turn;
-                Self::Damping(std::array::from_fn(|i| std::array::from_fn(|k| matrix[(i, k)])))
+                let matrix = product(&transposed(axes), &product(&rows.map(|row| row.map(DoubleDouble::from)), axes));
+                Self::Damping(matrix.map(|row| row.map(DoubleDouble::to_f64)))
             }
             Self::Polynomial(torque) => {
-                Self::Polynomial(Arc::new(PolynomialTorque { turn: torque.turn * turn, ..(**torque).clone() }))
+                Self::Polynomial(Arc::new(PolynomialTorque { turn: product(&torque.turn, axes), ..(**torque).clone() }))
             }
         }
     }
@@ -271,8 +272,8 @@ impl PolynomialTorque {
         &self.terms
     }
 
-    pub(crate) fn turn(&self) -> &UnitQuaternion<f64> {
-        &self.turn
+    pub(crate) fn turn(&self) -> Matrix3<f64> {
+        rounded(&self.turn)
     }
 }
 

@@ -234,7 +234,7 @@ impl Recipe {
     fn new(torque: &PolynomialTorque, inverse: &Matrix3<f64>, (scene, exponent): (&Scene, i32), slopes: bool) -> Self {
         let epoch = scene.state().epoch;
         let sources = torque.sources().iter().map(|source| SourceSeries::new(source, (epoch, exponent))).collect();
-        let turn = torque.turn().to_rotation_matrix().into_inner();
+        let turn = torque.turn();
         let unit = |part: f64| scaled(part, -exponent);
         let back = (inverse * turn.transpose()).map(|part| unit(unit(part)));
         let mut recipe = Self {
