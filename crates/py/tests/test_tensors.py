@@ -86,3 +86,14 @@ def test_the_error_of_a_torque_about_turned_axes_is_within_the_bound(name):
     error = 2 * min(np.linalg.norm(found - true), np.linalg.norm(found + true))
     assert error <= motion.plan.error_bound <= 1e-8
     assert not motion.verify(tolerance=1e-7).refuted
+
+
+def test_the_bound_next_to_the_separatrix_contains_the_rounding_of_principal_moments():
+    # A needle of 1.4e5 : 1; the attitude is that of Jacobi's closed form in 60 digits about axes found in 60 digits. The error was 123 times the bound.
+    a, b, c, d, e, f = 0.9880082047693355, 0.29856337539921973, 0.7134306604846328, -0.0916961424679263, 0.05861122791608171, 0.4483413788411725
+    rates, time = [0.37426454751720695, -1.0, -0.3682934749120741], 2063.939530803375
+    true = [-0.5791388242852417, -0.4668898275818497, -0.6663784774005335, 0.050515700167822676]
+    motion = Scene(Body.from_inertia([[a, d, e], [d, b, f], [e, f, c]]), [0, 0, 0, 1], rates, span=(0, time), tolerance=1e-9).solve()
+    found = motion.attitude(time)
+    error = 2 * min(np.linalg.norm(found - true), np.linalg.norm(found + true))
+    assert error <= motion.plan.error_bound <= 1e-9

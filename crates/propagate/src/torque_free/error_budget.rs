@@ -37,7 +37,26 @@ pub(crate) fn conditioning(scene: &Scene, polhode: &Polhode, rates: &Secular) ->
     }
     let half_turns =
         (rates.anomaly_rate.to_f64() / rates.longitude_rate.to_f64()).abs() * rotations(scene, rates, polhode) * 2.0;
-    COSINE_ROUNDING * polhode.invariants.cancellation * half_turns
+    let tensor = if scene.body().has_tensor() { tensor_rounding(polhode) } else { 0.0 };
+    COSINE_ROUNDING * (polhode.invariants.cancellation + tensor) * half_turns
+}
+
+/// Rounding error of Q1 by that of the principal moments and axes of a tensor, relative to Q1 and to [`COSINE_ROUNDING`]. Q1 is proportional to the difference of
+/// A (C − B) (C ω3)² and C (B − A) (A ω1)². Moments have errors relative to the largest moment, and rates those relative to the largest rate.
+fn tensor_rounding(polhode: &Polhode) -> f64 {
+    let [a, b, c] = polhode.moments;
+    let [_, second] = polhode.invariants.excesses;
+    let [upper, lower] = [b * second.to_f64().abs(), a * b / c * polhode.invariants.difference.to_f64().abs()];
+    let [x, y, z] = std::array::from_fn(|axis| polhode.invariants.direction[axis].abs() / polhode.moments[axis]);
+    let (largest, fastest) = (a.max(c), x.max(y).max(z));
+    // The parts of both terms, whose sum is the cancellation and whose difference is 1.
+    let parts = [1.0, -1.0].map(|sign| 0.5 * (polhode.invariants.cancellation + sign));
+    let errors = [
+        largest / a + largest / upper + 2.0 * (largest / c + fastest / z),
+        largest / c + largest / lower + 2.0 * (largest / a + fastest / x),
+    ];
+    let seen = parts.into_iter().zip(errors).filter(|(part, _)| *part > f64::EPSILON);
+    seen.map(|(part, error)| part * error).sum()
 }
 
 fn rotations(scene: &Scene, rates: &Secular, polhode: &Polhode) -> f64 {
