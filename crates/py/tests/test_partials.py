@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 import andoyer
-from andoyer import Body, Orbit, Scene, TabulatedOrbit
+from andoyer import Body, Ensemble, Orbit, Scene, TabulatedOrbit, Torque
 
 CASES = {case["name"]: case for case in json.loads((REPOSITORY / "tests/data/partials.json").read_text(encoding="utf-8"))}
 
@@ -220,3 +220,45 @@ def test_no_orbit_turns_a_sphere_and_its_columns_are_in_their_places():
         assert (found[..., :6] == 0).all() and (found[..., 9] == 0).all()
         np.testing.assert_allclose(found[..., 6:9], own[..., 3:6], atol=1e-14)
         np.testing.assert_allclose(found[..., 10:], own[..., :3], atol=1e-14)
+
+
+@pytest.mark.parametrize("bodies", [1, 2])
+def test_derivatives_of_a_sphere_in_ensembles_and_under_torques_that_vanish_at_its_state(bodies):
+    # The motions of bodies beside the sphere give the derivatives by their differences: a torque that is 0 at the state is none beside it.
+    orbits, attitude, rates, time, step = (
+        [Orbit(0.3, 0.1, inclination=0.3), Orbit(0.2, 0.2, inclination=1.0, mass_fraction=0.3)],
+        STATE[0],
+        [0.2, 0.3, 1.1],
+        12.0,
+        1e-4,
+    )
+    torques = [Torque.rotor([0, 0, 0]), Torque.polynomial(["-0.1*(w1 - 0.2)", "0", "0"])]
+
+    def by_differences(**options):
+        def ends(axis):
+            beside = [np.ones(3) + sign * step * np.eye(3)[axis] for sign in (-1, 1)]
+            return [Scene(Body(m), attitude, rates, span=(0, time), tolerance=1e-12, method="integrated", **options).solve() for m in beside]
+
+        turns = [[Rotation.from_quat(motion.attitude(time)) for motion in ends(axis)] for axis in range(3)]
+        return np.array([(one.inv() * other).as_rotvec() / (2 * step) for one, other in turns]).T
+
+    paths = orbits[:bodies]
+    alone = Scene(Body([1, 1, 1]), attitude, rates, orbit=paths, span=(0, time)).solve().partials(time).attitude
+    np.testing.assert_allclose(alone[:, 6:], by_differences(orbit=paths), atol=1e-5)
+    under = Scene(Body([1, 1, 1]), attitude, rates, orbit=paths, torques=torques, span=(0, time), tolerance=1e-9).solve().partials(time).attitude
+    np.testing.assert_allclose(under[:, 6:], by_differences(orbit=paths, torques=torques), atol=1e-5)
+    if bodies == 1:
+        members = Ensemble(np.ones((2, 3)), [attitude] * 2, [rates, [0.0, 0.0, 1.0]], orbits=paths[0], span=(0, time)).partials([time])
+        np.testing.assert_allclose(members.attitude[0, 0], alone, atol=1e-12)
+
+
+def test_derivatives_that_overflow_are_refused():
+    strong = Orbit(0.3, 1 - 1e-16, attraction=8e285)
+    motion = Scene(Body([1, 1, 1]), *STATE, orbit=strong, span=(0, 12)).solve()
+    for parameters in (None, ["moments"]):
+        with pytest.raises(andoyer.RepresentationError, match="a derivative may overflow a double") as caught:
+            motion.partials([0.0, 1.0, 12.0], **({} if parameters is None else {"with_respect_to": parameters}))
+        assert caught.value.argument == "times"
+    weak = Scene(Body([1, 1, 1]), *STATE, orbit=Orbit(0.3, 0.1, attraction=1e-300), span=(0, 12)).solve().partials([1.0, 12.0])
+    free = Scene(Body([1, 1, 1]), *STATE).solve().partials([1.0, 12.0])
+    np.testing.assert_allclose(weak.attitude, free.attitude, atol=1e-13)

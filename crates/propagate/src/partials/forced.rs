@@ -53,22 +53,36 @@ impl Batch<'_> {
     fn by_columns(&self, columns: &[ForcedColumn], times: &[f64], mut outputs: PartialsRows<'_>) -> Result<(), Error> {
         let motion = self.motion();
         motion.valid(times, self.epoch())?;
-        let times = motion.in_scene(self.epoch(), times);
-        let ends = [f64::min, f64::max].map(|end| times.iter().copied().fold(motion.scene.state().epoch, end));
+        let in_scene = motion.in_scene(self.epoch(), times);
+        let ends = [f64::min, f64::max].map(|end| in_scene.iter().copied().fold(motion.scene.state().epoch, end));
         let scene = motion.scene.clone().span(ends[0], ends[1]);
         let own = outputs.each_mut().map(|output| &mut **output);
         if let Some(averaging) = motion.plan.averaging()
             && variation::steps(&scene) > MOST_STEPS
         {
-            differences::fill((motion, averaging), columns, &times, own, self.stop())?;
+            differences::fill((motion, averaging), columns, &in_scene, own, self.stop())?;
         } else {
-            variation::fill(&scene, columns, &times, own, self.stop())?;
+            variation::fill(&scene, columns, &in_scene, own, self.stop())?;
         }
         if let Some(given) = &motion.given {
             let axes = given.turn.to_rotation_matrix().into_inner();
-            outputs.into_iter().for_each(|output| turn(&axes, columns.len(), output));
+            outputs.iter_mut().for_each(|output| turn(&axes, columns.len(), output));
         }
-        Ok(())
+        self.held(times, 3 * columns.len(), outputs.each_ref().map(|output| &**output))
+    }
+
+    /// Whether doubles hold the derivatives at all times: those by the moments of a sphere next to a strong attraction may overflow where the motion is that of a free body.
+    fn held(&self, times: &[f64], numbers: usize, outputs: [&[f64]; 2]) -> Result<(), Error> {
+        let finite = |index: usize| {
+            let rows = outputs.map(|output| &output[numbers * index..numbers * (index + 1)]);
+            rows.into_iter().flatten().all(|derivative| derivative.is_finite())
+        };
+        let Some(index) = (0..times.len()).find(|index| !finite(*index)) else { return Ok(()) };
+        let distance = |index: usize| (times[index] - self.epoch()).abs();
+        let nearer = (0..times.len()).filter(|other| distance(*other) < distance(index) && finite(*other));
+        let bound = nearer.map(distance).fold(0.0, f64::max);
+        let reason = ": farther away a derivative may overflow a double";
+        Err(self.motion().too_far((index, times[index]), self.epoch(), bound, reason))
     }
 }
 
