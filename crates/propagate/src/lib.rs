@@ -91,7 +91,8 @@ pub mod disturbers {
     #[cfg(feature = "torques")]
     pub use crate::cassini::{CassiniState, cassini_states};
     pub use crate::orbit::disturbing_body::DisturbingBody;
-    pub use crate::orbit::elements::{Oblateness, Orbit};
+    pub use crate::orbit::elements::Orbit;
+    pub use crate::orbit::oblate::Oblateness;
     pub use crate::orbit::table::TabulatedOrbit;
 }
 

@@ -1,6 +1,6 @@
 //! The orbit of a disturbing body: its elements or a table of positions, its position at a time, and the functions of the orbit that the torque needs, as series.
 //!
-//! - As the user states it: `elements.rs` (with `from_state.rs`), `table.rs`; `disturbing_body.rs` is an enum of the two.
+//! - As the user states it: `elements.rs` (with `from_state.rs` and `oblate.rs`), `table.rs`; `disturbing_body.rs` is an enum of the two.
 //! - The position at a time: of an ellipse in lanes in `position.rs`, with Kepler's equation in `kepler.rs`; of any orbit at one time in `from_state.rs`, with
 //!   `conic.rs` and `hyperbola.rs`; of a table in `table.rs`. The integration has series in time of its own (`integration/path_series.rs`).
 //! - (a/r)³ r̂r̂ as a function of time: its turns in `tensor.rs`, time derivatives in `derivatives.rs`, harmonics of the mean anomaly in `hansen.rs`, sizes within a span in `span.rs`.
@@ -13,6 +13,7 @@ mod from_state;
 pub(crate) mod hansen;
 pub(crate) mod hyperbola;
 pub(crate) mod kepler;
+pub(crate) mod oblate;
 pub(crate) mod position;
 pub(crate) mod span;
 pub(crate) mod table;
