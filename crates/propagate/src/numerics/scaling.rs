@@ -13,8 +13,13 @@ pub(crate) fn exponent(value: f64) -> i32 {
 
 /// value·2^power. Two factors are used so that neither overflows.
 pub(crate) fn scaled(value: f64, power: i32) -> f64 {
+    let [one, other] = factors(power);
+    value * one * other
+}
+
+fn factors(power: i32) -> [f64; 2] {
     let half = power / 2;
-    value * power_of_two(half) * power_of_two(power - half)
+    [half, power - half].map(power_of_two)
 }
 
 /// 2^power, from its bits: infinite above the largest double, and 0 below the smallest. A function call, even for powers that never occur, would be made for
@@ -30,7 +35,8 @@ fn power_of_two(power: i32) -> f64 {
 
 /// value·2^power of a double-double.
 pub(crate) fn scaled_pair(value: DoubleDouble, power: i32) -> DoubleDouble {
-    DoubleDouble { high: scaled(value.high, power), low: scaled(value.low, power) }
+    let [one, other] = factors(power);
+    DoubleDouble { high: value.high * one * other, low: value.low * one * other }
 }
 
 /// A rate in the user's unit.

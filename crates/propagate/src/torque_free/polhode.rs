@@ -99,7 +99,10 @@ impl Order {
     }
 
     fn sorted_pairs(&self, vector: [DoubleDouble; 3]) -> [DoubleDouble; 3] {
-        std::array::from_fn(|i| vector[self.axes[i]].times_double(self.signs[i]))
+        std::array::from_fn(|i| {
+            let DoubleDouble { high, low } = vector[self.axes[i]];
+            DoubleDouble { high: self.signs[i] * high, low: self.signs[i] * low }
+        })
     }
 }
 

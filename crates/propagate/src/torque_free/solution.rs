@@ -66,7 +66,7 @@ pub(crate) fn by_theta_functions(
         round_body()
     } else {
         let reason = match first_order(ratio, scene.asked_tolerance()) {
-            Some(order) => format!("series: it would need order {order} or more, and no fewer harmonics"),
+            Some(order) => with_number("series: it would need order ", order, " or more, and no fewer harmonics"),
             None => "series: too near the separatrix for its highest order".to_owned(),
         };
         std::iter::once(reason).chain(dropped_harmonics(&series, all)).collect()
@@ -126,6 +126,22 @@ pub(crate) fn round_body() -> Vec<String> {
 /// A remark on the harmonics that were dropped, if there are any.
 pub(crate) fn dropped_harmonics(series: &CayleyKleinSeries, all: usize) -> Vec<String> {
     let kept = series.harmonics();
-    let reason = (kept < all).then(|| format!("harmonics above {kept}: together below an eighth of the tolerance"));
-    reason.into_iter().collect()
+    let reason = || with_number("harmonics above ", kept, ": together below an eighth of the tolerance");
+    (kept < all).then(reason).into_iter().collect()
+}
+
+/// A text with a number. Every solution has one or two, and `format!` would be 6 % of its instructions.
+fn with_number(before: &str, number: usize, after: &str) -> String {
+    let mut text = String::with_capacity(before.len() + after.len() + 4);
+    text.push_str(before);
+    let mut unit = 1;
+    while number / unit >= 10 {
+        unit *= 10;
+    }
+    while unit > 0 {
+        text.push(char::from(b'0' + (number / unit % 10) as u8));
+        unit /= 10;
+    }
+    text.push_str(after);
+    text
 }
