@@ -8,7 +8,7 @@ use andoyer_series::progress::Progress;
 use andoyer_series::real_field::RealField;
 use andoyer_series::{Error as Algebra, Monomial, PhaseSpace, Polynomial};
 use num_rational::BigRational;
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyTypeError, PyUserWarning};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
 
@@ -222,6 +222,7 @@ pub(crate) fn normalized(
     space: &PhaseSpace,
     DrivenPhases { names, phases, samples, .. }: DrivenPhases,
     smallest_divisor: f64,
+    start: Option<Vec<f64>>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<DrivenNormalForm> {
     let phases: Vec<(f64, f64)> = phases.iter().map(|(rate, start)| (rate.to_float(), *start)).collect();
@@ -232,15 +233,28 @@ pub(crate) fn normalized(
         false => rounded(&Expression::new("hamiltonian", hamiltonian, &space)?.polynomial),
     };
     let Some(callable) = &samples else {
-        let compute = |tell: &mut Progress<'_>| Inner::new(&text, order, &space, &phases, smallest_divisor, tell);
-        return Ok(DrivenNormalForm::new(progress::reported(py, progress, compute)?));
+        let system = (&text, &space);
+        let compute = |tell: &mut Progress<'_>| {
+            Inner::from_state(system, order, &phases, smallest_divisor, start.as_deref(), tell)
+        };
+        return named(py, progress::reported(py, progress, compute)?);
     };
     let sampler = Sampler { callable, space: &space, text, known: Mutex::default(), failure: Mutex::default() };
-    let system = SampledHamiltonian::new(space.degrees_of_freedom(), |phases: &[f64]| sampler.terms(phases));
+    let system =
+        SampledHamiltonian::new(space.degrees_of_freedom(), |phases: &[f64]| sampler.terms(phases)).with_start(start);
     let compute = |tell: &mut Progress<'_>| Inner::of(&system, order, &space, &phases, smallest_divisor, tell);
     let form = progress::reported(py, progress, compute);
     if let Some(problem) = sampler.failure.lock().unwrap_or_else(PoisonError::into_inner).take() {
         return Err(problem);
     }
-    Ok(DrivenNormalForm::new(form?))
+    named(py, form?)
+}
+
+/// The form; a warning names a periodic motion that does not continue the response to a weak drive.
+fn named(py: Python<'_>, form: Inner) -> PyResult<DrivenNormalForm> {
+    if form.form().is_opposite() {
+        let said = c"the periodic motion is out of phase with the response to a weak drive: the drive is too strong, or too near a resonance, for one that continues the equilibrium, or the iteration passed it; start= chooses another";
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), said, 1)?;
+    }
+    Ok(DrivenNormalForm::new(form))
 }

@@ -99,7 +99,7 @@ impl DrivenNormalForm {
         Ok(result)
     }
 
-    /// Floquet's exponents on the branch that continues the frequencies without drive: ω of a centre, negative if its energy is negative; iλ of a saddle.
+    /// Floquet's exponents on the branch of the rotation number: ω of a centre, the mean rate at which a real solution turns, negative if it turns backwards; iλ of a saddle.
     #[getter]
     fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let number = |mode: &Mode<f64>| frequency(py, &mode.frequency());

@@ -11,6 +11,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 
+use crate::array::numbers_of;
 use crate::birkhoff::BirkhoffNormalForm;
 use crate::driven::DrivenPhases;
 use crate::error;
@@ -63,11 +64,14 @@ use crate::progress;
 /// progress : callable, optional
 ///     Called as ``progress(done, order)`` with the number of completed orders, 0 to `order`. An exception in it stops the computation and is raised
 ///     to the caller.
+/// start : array_like, shape (2n,), optional
+///     A state q₁, p₁, … near a periodic motion at the phase 0 of one driven phase, such as `periodic(0.0)` of a form for similar numbers: the search begins at its solution
+///     over a period. By default it begins at the equilibrium.
 ///
 /// Raises
 /// ------
 /// InputError
-///     A text that is not a polynomial; a linear term; more than four pairs; an unknown variable; a vector that is not a resonance; an unknown `keep`; a negative order; a
+///     A text that is not a polynomial; a start without one driven phase or of another shape; a linear term; more than four pairs; an unknown variable; a vector that is not a resonance; an unknown `keep`; a negative order; a
 ///     smallest divisor outside 0 to 1; numbers that overflow.
 /// TheoryError
 ///     A quadratic part with a Jordan block or a zero frequency. A force with the frequency of a mode. A resonant term or a small divisor that was not requested; the message has its monomial.
@@ -92,7 +96,7 @@ use crate::progress;
 /// >>> saddle.frequencies
 /// (2j, Fraction(1, 1))
 #[pyfunction]
-#[pyo3(signature = (hamiltonian, order, variables, *, parameters=None, driven=None, degrees=None, frequency=None, resonances=None, keep=None, smallest_divisor=1e-6, exact=None, progress=None))]
+#[pyo3(signature = (hamiltonian, order, variables, *, parameters=None, driven=None, degrees=None, frequency=None, resonances=None, keep=None, smallest_divisor=1e-6, exact=None, progress=None, start=None))]
 #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
 pub(crate) fn normalize(
     py: Python<'_>,
@@ -108,6 +112,7 @@ pub(crate) fn normalize(
     smallest_divisor: f64,
     exact: Option<bool>,
     progress: Option<Py<PyAny>>,
+    start: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Py<PyAny>> {
     let space = space(variables, parameters, degrees)?;
     let in_orders = [
@@ -122,8 +127,13 @@ pub(crate) fn normalize(
     let (given, driven_float) = DrivenPhases::of(driven)?;
     if given.is_about_the_periodic_motion(in_orders)? {
         let order = self::order("order", order, 0, MAX_DRIVEN_ORDER)?;
-        let form = crate::driven::normalized(py, hamiltonian, order, &space, given, smallest_divisor, progress)?;
+        let start = start.map(|start| numbers_of("start", start)).transpose()?;
+        let form = crate::driven::normalized(py, hamiltonian, order, &space, given, smallest_divisor, start, progress)?;
         return form.into_py_any(py);
+    }
+    if start.is_some() {
+        let message = "start: it belongs to a form about a periodic motion, with driven and without the options of forms in orders";
+        return Err(error::input("start", "given", "None", message.to_owned()));
     }
     let names: Vec<&str> = given.names.iter().map(String::as_str).collect();
     let space = space.with_driven(&names).map_err(|problem| error::algebra_of("driven", problem))?;

@@ -144,6 +144,28 @@ crate::error_table! {
             bound: usize = "The most steps.",
         } => Theory, facts("driven", *rate, *bound);
 
+        /// A state that cannot begin the search for a periodic motion.
+        #[error("start = {start:?} must be {variables} finite numbers, the state of the periodic motion at the phase 0 of one driven phase; there are {phases} driven phases")]
+        StartUnsupported {
+            start: Vec<f64> = "The state.",
+            variables: usize = "The number of variables.",
+            phases: usize = "The number of driven phases.",
+        } => Input, facts("start", format!("{start:?}"), *variables);
+
+        /// The solutions next to a periodic motion grow too much over a period of a driven phase.
+        #[error("over the period of the first driven phase, whose rate is {rate:?}, the linear motion grows by more than {bound:e}: floats do not hold its multipliers")]
+        GrowthTooLarge {
+            rate: f64 = "The rate of the phase.",
+            bound: f64 = "The largest growth.",
+        } => Theory, facts("driven", *rate, *bound);
+
+        /// The periodic motion of a driven Hamiltonian takes too much work.
+        #[error("the periodic motion of the drive takes more than {work:e} multiplications, which are up to 2 s of one core: at {times} times of a period there is no solution yet; units in which the variables are of size 1, fewer harmonics or a weaker drive take less")]
+        DrivenWorkTooLarge {
+            times: usize = "The times of the last grid.",
+            work: f64 = "The most multiplications.",
+        } => Theory, facts("driven", *times, *work);
+
         /// Newton's iteration finds no periodic motion of a driven Hamiltonian.
         #[error("no periodic motion continues the equilibrium: {steps} steps end with a step of {miss:?}; the drive is too strong, or in resonance with a mode")]
         NoPeriodicMotion {

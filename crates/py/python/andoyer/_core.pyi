@@ -948,6 +948,7 @@ def normalize(  # type: ignore[overload-overlap]  # a call with `exact` or `para
     driven: Driven | dict[Any, Any],
     smallest_divisor: float = 1e-6,
     progress: Callable[[int, int], object] | None = None,
+    start: Any = None,
 ) -> DrivenNormalForm: ...
 @overload
 def normalize(
@@ -964,6 +965,7 @@ def normalize(
     smallest_divisor: float = 1e-6,
     exact: bool | None = None,
     progress: Callable[[int, int], object] | None = None,
+    start: None = None,
 ) -> BirkhoffNormalForm:
     """Computes the Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin."""
 

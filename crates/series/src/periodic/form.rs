@@ -21,6 +21,7 @@ use super::hamiltonian::DrivenHamiltonian;
 use super::images::Images;
 use super::motion::PeriodicMotion;
 use super::row::Periodic;
+use super::search::settled;
 use super::start::eigenvalues;
 use crate::birkhoff::Mode;
 use crate::birkhoff::domain::{Domain, size};
@@ -31,16 +32,7 @@ use crate::bracket::Poisson;
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::{Polynomial, Truncation};
-use crate::triangle::{LieTransform, Progress, normalize_backwards, stop};
-
-/// Harmonics to begin with. All numbers of them are multiples of four: one time more than a multiple of eight suits vector instructions.
-const FEWEST: usize = 4;
-/// Coefficients may differ between the times of a grid by so many times the tolerance of its last harmonics.
-const BETWEEN: f64 = 100.0;
-/// Most times of a grid of several phases.
-const MOST_TIMES: usize = 20_000;
-/// Grids without a solution after which there is none.
-const FAILURES: usize = 4;
+use crate::triangle::{LieTransform, Progress, normalize_backwards};
 
 /// What a normal form about a periodic motion is to have.
 #[derive(Clone, Copy, Debug)]
@@ -201,6 +193,12 @@ impl DrivenForm {
         generators + self.images.memory()
     }
 
+    /// Whether the periodic motion is opposite to the response to a weak drive, the first step of Newton's iteration from the equilibrium: it does not continue that response.
+    #[must_use]
+    pub fn is_opposite(&self) -> bool {
+        self.motion.is_opposite
+    }
+
     /// The periodic motion q₁, p₁, … at phases \[rad\].
     #[must_use]
     pub fn periodic(&self, phases: &[f64]) -> Vec<f64> {
@@ -247,57 +245,6 @@ impl DrivenForm {
         let rates: Result<Vec<f64>, Error> =
             self.frequencies.iter().map(|frequency| frequency.truncate(&truncation).evaluate(actions)).collect();
         finite("frequencies", rates?)
-    }
-}
-
-/// The periodic motion on a grid that is fine enough: it holds the coefficients, and the last harmonics are small. A grid that is too coarse can have no solution; after
-/// `FAILURES` of them there is none.
-fn settled(
-    system: &dyn DrivenHamiltonian,
-    rates: &[f64],
-    DrivenOptions { order, tolerance, harmonics, .. }: DrivenOptions,
-    progress: &mut Progress<'_>,
-) -> Result<PeriodicMotion, Error> {
-    let first = system.harmonics().iter().copied().chain(std::iter::repeat(FEWEST));
-    let rounded = |half: usize| half.max(FEWEST).next_multiple_of(4).min(harmonics);
-    let mut halves: Vec<usize> = first.take(rates.len()).map(rounded).collect();
-    let mut going = || stop(progress(0, order), 0, order);
-    let (mut known, mut failures) = (None, 0);
-    loop {
-        going()?;
-        let phases: Vec<_> = rates.iter().copied().zip(halves.iter().copied()).collect();
-        let grid = Grid::new(&phases);
-        if rates.len() > 1 && grid.times() > MOST_TIMES {
-            return Err(Error::GridTooLarge { times: grid.times(), bound: MOST_TIMES });
-        }
-        let between = system.between_times(&grid)?;
-        let resolved = between <= BETWEEN * tolerance;
-        let found = resolved.then(|| PeriodicMotion::new(system, grid, known.as_ref(), &mut going));
-        if let Some(Err(error @ Error::Interrupted { .. })) = found {
-            return Err(error);
-        }
-        let tails = match &found {
-            Some(Ok(motion)) => motion.tails.clone(),
-            Some(Err(_)) => vec![f64::INFINITY; rates.len()],
-            // Infinite for a NaN.
-            None => vec![if between.is_nan() { f64::INFINITY } else { between }; rates.len()],
-        };
-        failures += usize::from(matches!(found, Some(Err(_))));
-        let coarse: Vec<bool> = tails.iter().map(|&tail| tail > tolerance).collect();
-        if let Some(found) = &found
-            && (!coarse.contains(&true) || failures == FAILURES || rates.is_empty())
-        {
-            return found.clone();
-        }
-        if halves.iter().zip(&coarse).any(|(&half, &coarse)| coarse && half == harmonics) {
-            let rest = tails.iter().copied().fold(0.0, f64::max);
-            let too_fine = Error::GridTooFine { harmonics, rest, tolerance };
-            return Err(found.and_then(Result::err).unwrap_or(too_fine));
-        }
-        known = found.and_then(Result::ok).or(known);
-        for (half, _) in halves.iter_mut().zip(coarse).filter(|(_, coarse)| *coarse) {
-            *half = (*half + *half / 4).next_multiple_of(4).min(harmonics);
-        }
     }
 }
 

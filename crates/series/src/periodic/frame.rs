@@ -11,6 +11,7 @@ use num_traits::Zero;
 use super::grid::Grid;
 use super::row::{Periodic, product};
 use super::start::{Frame, eigenvalues, start, start_of_one, still};
+use super::work::{Going, ends, of_frame};
 use crate::birkhoff::matrix::{Matrix, symplectic_inverse, turned_rows, unit};
 use crate::birkhoff::mode::Mode;
 use crate::error::Error;
@@ -27,24 +28,61 @@ pub(super) const NOISE: f64 = 1e-12;
 const FRAMES: usize = 25;
 const LARGEST: f64 = 0.3;
 
-/// The frame of ż = J S z, from a frame of a similar motion or anew.
-pub(super) fn frame(grid: &Grid, second: &Matrix<Periodic>, known: Option<Frame>) -> Result<Frame, Error> {
-    if let Some(Ok(frame)) = known.map(|known| refined(grid, second, known)) {
+/// The frame of ż = J S z, from a frame of a similar motion or anew. `going` is told the work of each step.
+///
+/// # Errors
+/// - a first frame with harmonics that the grid does not hold: [`Error::GridTooFine`]; growth, or multipliers without a real frame: [`Error::GrowthTooLarge`], [`Error::MultiplierUnsupported`]; those of `going`.
+pub(super) fn frame(
+    grid: &Grid,
+    second: &Matrix<Periodic>,
+    known: Option<Frame>,
+    going: &mut Going<'_>,
+) -> Result<Frame, Error> {
+    if let Some(known) = known
+        && let Some(frame) = refined(grid, second, known, going)?
+    {
         return Ok(frame);
     }
+    let problem = match start(grid, second, |grid, second| start_of_one(grid, second, going)) {
+        Ok(first) => match refined(grid, second, first.clone(), going)? {
+            Some(frame) => return Ok(frame),
+            None => unreached(grid, &first),
+        },
+        Err(error) if ends(&error) => return Err(error),
+        Err(error) => error,
+    };
     // Multipliers that coincide without a drive that couples them have the frame of the mean.
-    let found = start(grid, second, start_of_one).and_then(|frame| refined(grid, second, frame));
-    found.or_else(|error| {
-        let mean = start(grid, second, |_, mean| still(mean));
-        mean.and_then(|frame| refined(grid, second, frame)).map_err(|_| error)
-    })
+    if let Ok(mean) = start(grid, second, |_, mean| still(mean))
+        && let Some(frame) = refined(grid, second, mean, going)?
+    {
+        return Ok(frame);
+    }
+    Err(problem)
 }
 
-/// Newton steps to a frame.
-fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut modes): Frame) -> Result<Frame, Error> {
+/// Why no frame is reached from a first one, which is exact at the times of the grid if the phase is one: the grid does not hold it, or there is none.
+fn unreached(grid: &Grid, (change, modes): &Frame) -> Error {
+    let tail = |entry: &Periodic| grid.tails(entry).into_iter().fold(0.0, f64::max) / entry.size().max(1.0);
+    let rest = change.iter().flatten().map(tail).fold(0.0, f64::max);
+    if rest > SMALL {
+        let harmonics = (0..grid.phases()).map(|phase| grid.count(phase) / 2).max().unwrap_or(0);
+        return Error::GridTooFine { harmonics, rest, tolerance: SMALL };
+    }
+    let problem = "have no real frame that Newton's iteration reaches: two nearly coincide, or their exponents are in resonance with the phases";
+    Error::MultiplierUnsupported { multipliers: multipliers(grid, modes), problem }
+}
+
+/// Newton steps to a frame; none if they do not converge.
+fn refined(
+    grid: &Grid,
+    second: &Matrix<Periodic>,
+    (mut change, mut modes): Frame,
+    going: &mut Going<'_>,
+) -> Result<Option<Frame>, Error> {
     let moved = turned_rows(second);
     let mut before = f64::INFINITY;
     for _ in 0..FRAMES {
+        going(of_frame(grid, second.len()))?;
         change = product(&change, &correction(&change));
         let mut rates = product(&moved, &change);
         for (row, old) in rates.iter_mut().zip(&change) {
@@ -75,7 +113,7 @@ fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut modes): Fram
         let size = step.iter().flatten().map(Periodic::size).fold(0.0, f64::max);
         // A step that rounding makes is not taken.
         if size > before * SLOWEST && size < SMALL {
-            return Ok((change, modes));
+            return Ok(Some((change, modes)));
         }
         if !size.is_finite() {
             break;
@@ -83,12 +121,11 @@ fn refined(grid: &Grid, second: &Matrix<Periodic>, (mut change, mut modes): Fram
         let step = if size > LARGEST { scaled(step, LARGEST / size) } else { step };
         change = product(&change, &exponential(&step));
         if size <= REACHED {
-            return Ok((change, modes));
+            return Ok(Some((change, modes)));
         }
         before = size;
     }
-    let problem = "nearly coincide, and no periodic frame separates them";
-    Err(Error::MultiplierUnsupported { multipliers: multipliers(grid, &modes), problem })
+    Ok(None)
 }
 
 /// The largest modulus of the frequencies and rates of modes.

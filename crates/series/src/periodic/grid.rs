@@ -133,9 +133,19 @@ impl Grid {
         self.axes.iter().map(|axis| axis.rate).collect()
     }
 
+    /// The number of times of a phase.
+    pub(super) fn count(&self, phase: usize) -> usize {
+        self.axes[phase].count
+    }
+
     /// The grid of the first phase alone.
     pub(super) fn first(&self) -> Self {
         Self { axes: self.axes[..1.min(self.axes.len())].to_vec() }
+    }
+
+    /// The same times with rates that are larger by a factor.
+    pub(super) fn faster(&self, factor: f64) -> Self {
+        Self { axes: self.axes.iter().map(|axis| Axis { rate: axis.rate * factor, ..axis.clone() }).collect() }
     }
 
     /// The mean of a function over all phases but the first, on the grid of the first.

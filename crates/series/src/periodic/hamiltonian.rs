@@ -41,6 +41,11 @@ pub trait DrivenHamiltonian: Sync {
     fn harmonics(&self) -> &[usize] {
         &[]
     }
+
+    /// A state q₁, p₁, … near the periodic motion at the phase 0, where one is known: with one driven phase the search begins at its solution over a period.
+    fn start(&self) -> Option<&[f64]> {
+        None
+    }
 }
 
 /// Phases at which coefficients are compared between the times of a grid.
@@ -58,18 +63,25 @@ pub struct SampledHamiltonian<F> {
     pairs: usize,
     samples: F,
     harmonics: Vec<usize>,
+    start: Option<Vec<f64>>,
 }
 
 impl<F: Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync> SampledHamiltonian<F> {
     /// The Hamiltonian of `pairs` pairs whose terms at phases \[rad\] are `samples`.
     pub fn new(pairs: usize, samples: F) -> Self {
-        Self { pairs, samples, harmonics: Vec::new() }
+        Self { pairs, samples, harmonics: Vec::new(), start: None }
     }
 
     /// The Hamiltonian with the highest harmonic of each phase, where it is known.
     #[must_use]
     pub fn with_harmonics(self, harmonics: Vec<usize>) -> Self {
         Self { harmonics, ..self }
+    }
+
+    /// The Hamiltonian with a state near the periodic motion at the phase 0, where one is known.
+    #[must_use]
+    pub fn with_start(self, start: Option<Vec<f64>>) -> Self {
+        Self { start, ..self }
     }
 
     /// Refuses a coefficient that does not have the period 2π of each phase.
@@ -141,6 +153,10 @@ impl<F: Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync> DrivenHamilton
 
     fn harmonics(&self) -> &[usize] {
         &self.harmonics
+    }
+
+    fn start(&self) -> Option<&[f64]> {
+        self.start.as_deref()
     }
 
     fn between_times(&self, grid: &Grid) -> Result<f64, Error> {

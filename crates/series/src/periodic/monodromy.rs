@@ -7,6 +7,7 @@ use num_complex::Complex;
 
 use super::grid::Grid;
 use super::row::Periodic;
+use super::work::{Going, of_taylor_steps};
 use crate::birkhoff::matrix::{Matrix, turned_rows};
 use crate::error::Error;
 
@@ -17,11 +18,18 @@ const REACH: f64 = 3.0;
 /// Most steps over a period.
 const MOST_STEPS: usize = 100_000;
 
+/// The largest entry of Φ: beyond it the multipliers of the other modes are rounding.
+const MOST_GROWTH: f64 = 1e14;
+
 /// Φ at the times of a grid of one phase and after the period, 1 at the phase 0. If the rate is negative, the solution runs backwards in time.
 ///
 /// # Errors
-/// - more than [`MOST_STEPS`] steps: [`Error::PhaseTooSlow`].
-pub(super) fn monodromy(grid: &Grid, second: &Matrix<Periodic>) -> Result<Vec<DMatrix<f64>>, Error> {
+/// - more than [`MOST_STEPS`] steps: [`Error::PhaseTooSlow`]; growth beyond [`MOST_GROWTH`]: [`Error::GrowthTooLarge`]; those of `going`, which is told the work.
+pub(super) fn monodromy(
+    grid: &Grid,
+    second: &Matrix<Periodic>,
+    going: &mut Going<'_>,
+) -> Result<Vec<DMatrix<f64>>, Error> {
     let (n, times, rate) = (second.len(), grid.times(), grid.rates()[0]);
     let moved = turned_rows(second);
     let harmonics: Vec<Vec<Complex<f64>>> = moved.iter().flatten().map(|entry| grid.harmonics(entry)).collect();
@@ -34,6 +42,7 @@ pub(super) fn monodromy(grid: &Grid, second: &Matrix<Periodic>) -> Result<Vec<DM
     }
     let parts = parts as usize;
     let step = gap / parts as f64;
+    going(parts as f64 * of_taylor_steps(grid, n, ORDER))?;
     let mut course = vec![DMatrix::identity(n, n)];
     let mut last = DMatrix::identity(n, n);
     for place in 0..times {
@@ -41,6 +50,9 @@ pub(super) fn monodromy(grid: &Grid, second: &Matrix<Periodic>) -> Result<Vec<DM
             let start = place as f64 * gap + part as f64 * step;
             let matrices = taylor(&harmonics, (n, half), start, (step, step / rate));
             last = advanced(&matrices, &last);
+        }
+        if !last.iter().all(|entry| entry.abs() <= MOST_GROWTH) {
+            return Err(Error::GrowthTooLarge { rate, bound: MOST_GROWTH });
         }
         course.push(last.clone());
     }

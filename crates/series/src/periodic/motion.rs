@@ -13,6 +13,7 @@ use super::grid::Grid;
 use super::hamiltonian::DrivenHamiltonian;
 use super::row::{Periodic, product};
 use super::start::{Frame, eigenvalues};
+use super::work::{Going, ends, of_all_times, of_step};
 use crate::birkhoff::matrix::{Matrix, symplectic_inverse, turned, turned_rows, unit};
 use crate::birkhoff::mode::Mode;
 use crate::error::Error;
@@ -35,64 +36,99 @@ pub struct PeriodicMotion {
     pub(super) modes: Vec<Mode<f64>>,
     /// For each phase the largest of the last harmonics of x̄, P and the derivatives of H.
     pub(super) tails: Vec<f64>,
+    /// Whether x̄ is opposite to the first step from the equilibrium, the response to a weak drive.
+    pub(super) is_opposite: bool,
+}
+
+/// Where Newton's iteration begins.
+pub struct Begin {
+    grid: Grid,
+    origin: Vec<Periodic>,
+    frame: Option<Frame>,
+    is_opposite: bool,
+}
+
+impl Begin {
+    /// At a curve on a grid.
+    pub(super) fn at(grid: Grid, origin: Vec<Periodic>) -> Self {
+        Self { grid, origin, frame: None, is_opposite: false }
+    }
+
+    /// At a curve whose side of the response to a weak drive, if there is one, is known.
+    pub(super) fn beside(self, response: Option<&[Periodic]>) -> Self {
+        let is_opposite = response.is_some_and(|response| alike(&self.origin, response) < 0.0);
+        Self { is_opposite, ..self }
+    }
 }
 
 impl PeriodicMotion {
-    /// The periodic motion to which Newton's iteration comes from the equilibrium 0, and its frame; `known` is that on a coarser grid.
+    /// The periodic motion to which Newton's iteration comes from the equilibrium 0 or from where it is told to begin, and its frame.
     ///
     /// # Errors
-    /// - no convergence: [`Error::NoPeriodicMotion`]; what `going` returns before a step; multipliers that have no real frame: [`Error::MultiplierUnsupported`]; the errors of a quadratic form.
+    /// - no convergence: [`Error::NoPeriodicMotion`]; what `going` returns before a step; multipliers that have no real frame: [`Error::MultiplierUnsupported`], [`Error::GrowthTooLarge`];
+    /// - a frame with harmonics that the grid does not hold: [`Error::GridTooFine`]; the errors of a quadratic form.
     pub fn new(
         system: &dyn DrivenHamiltonian,
         grid: Grid,
-        known: Option<&Self>,
-        going: &mut dyn FnMut() -> Result<(), Error>,
+        begin: Option<&Begin>,
+        going: &mut Going<'_>,
     ) -> Result<Self, Error> {
-        let mut origin = vec![Periodic::zero(); 2 * system.pairs()];
-        let (mut before, mut kept, mut frameless) = (f64::INFINITY, None, None);
-        if let Some(known) = known {
-            let onto = |function: &Periodic| grid.sampled(|phases| function.weighted(&known.grid.weights(phases)));
-            origin = known.origin.iter().map(onto).collect();
-            let change = known.change.iter().map(|row| row.iter().map(onto).collect()).collect();
-            kept = Some((change, known.modes.clone()));
-        }
+        let (mut origin, mut kept) = begun(&grid, 2 * system.pairs(), begin);
+        let (mut before, mut frameless, mut response) = (f64::INFINITY, None, None);
         for number in 1..=STEPS {
-            going()?;
+            going(of_step(&grid, origin.len()))?;
             let (slopes, second) = quadratic(system, &grid, &origin)?;
             let mut left = turned(&slopes);
             for (left, x) in left.iter_mut().zip(&origin) {
                 *left -= &grid.derivative(x);
             }
             if frameless.is_none() {
-                match frame(&grid, &second, kept.take()) {
+                match frame(&grid, &second, kept.take(), going) {
                     Ok(found) => kept = Some(found),
+                    Err(error) if ends(&error) => return Err(error),
                     // That of a step is not that of the periodic motion.
                     Err(error) => frameless = Some(error),
                 }
             }
             let step = match &kept {
                 Some(frame) => step_in_frame(&grid, frame, &left),
-                None => step_at_all_times(&grid, &second, &left)
+                None => step_at_all_times(&grid, &second, &left, going)?
                     .ok_or_else(|| unsolved(frameless.clone(), &left, &second, (&origin, number)))?,
             };
             let size = size(&step);
             if !size.is_finite() {
-                return Err(Error::NoPeriodicMotion { miss: size, steps: number });
+                return Err(unsolved(None, &left, &second, (&origin, number)));
             }
+            response.get_or_insert_with(|| step.clone());
             origin.iter_mut().zip(&step).for_each(|(x, step)| *x += step);
             let scale = self::size(&origin).max(1.0);
             let slow = size > before * SLOWEST && size < SMALL * scale;
             if size <= REACHED * scale || slow {
                 let (slopes, second) = quadratic(system, &grid, &origin)?;
-                let (change, modes) = frame(&grid, &second, kept)?;
+                let (change, modes) = frame(&grid, &second, kept, going)?;
                 let mut tails = vec![0.0; grid.phases()];
                 add_tails(&mut tails, &grid, origin.iter().chain(change.iter().flatten()), 1.0);
                 add_tails(&mut tails, &grid, slopes.iter().chain(second.iter().flatten()), fastest(&modes));
-                return Ok(Self { grid, origin, change, modes, tails });
+                let is_opposite = match begin {
+                    Some(begin) => begin.is_opposite,
+                    None => response.is_some_and(|response| alike(&origin, &response) < 0.0),
+                };
+                return Ok(Self { grid, origin, change, modes, tails, is_opposite });
             }
             before = size;
         }
         Err(Error::NoPeriodicMotion { miss: before, steps: STEPS })
+    }
+
+    /// This motion and its frame as those to begin with.
+    pub(super) fn begin(&self) -> Begin {
+        let frame = Some((self.change.clone(), self.modes.clone()));
+        Begin { grid: self.grid.clone(), origin: self.origin.clone(), frame, is_opposite: self.is_opposite }
+    }
+
+    /// The largest variable of x̄.
+    pub(super) fn size(&self) -> f64 {
+        size(&self.origin)
     }
 
     /// The variables q₁, p₁, … as x̄ + P w, in the slots u₁, U₁, ….
@@ -108,6 +144,36 @@ impl PeriodicMotion {
         };
         symplectic_inverse(&self.change).iter().map(deviation).collect()
     }
+}
+
+/// The curve and the frame to begin with, on a grid.
+fn begun(grid: &Grid, variables: usize, begin: Option<&Begin>) -> (Vec<Periodic>, Option<Frame>) {
+    let Some(begin) = begin else { return (vec![Periodic::zero(); variables], None) };
+    let onto = |function: &Periodic| grid.sampled(|phases| function.weighted(&begin.grid.weights(phases)));
+    let frame = begin
+        .frame
+        .as_ref()
+        .map(|(change, modes)| (change.iter().map(|row| row.iter().map(onto).collect()).collect(), modes.clone()));
+    (begin.origin.iter().map(onto).collect(), frame)
+}
+
+/// The first step from the equilibrium, the response to a weak drive; none at a resonance or without a frame.
+pub(super) fn response(
+    system: &dyn DrivenHamiltonian,
+    grid: &Grid,
+    going: &mut Going<'_>,
+) -> Result<Option<Vec<Periodic>>, Error> {
+    let (slopes, second) = quadratic(system, grid, &vec![Periodic::zero(); 2 * system.pairs()])?;
+    match frame(grid, &second, None, going) {
+        Ok(frame) => Ok(Some(step_in_frame(grid, &frame, &turned(&slopes))).filter(|step| size(step).is_finite())),
+        Err(error) if ends(&error) => Err(error),
+        Err(_) => Ok(None),
+    }
+}
+
+/// The mean of the product of two curves.
+fn alike(one: &[Periodic], other: &[Periodic]) -> f64 {
+    one.iter().zip(other).map(|(x, y)| (x.clone() * y.clone()).mean().re).sum()
 }
 
 /// The largest value of some functions.
@@ -139,11 +205,17 @@ fn step_in_frame(grid: &Grid, (change, modes): &Frame, left: &[Periodic]) -> Vec
 }
 
 /// The Newton step without a frame, by one linear system for all times; none beyond [`MOST_ROWS`] and where the system is singular.
-fn step_at_all_times(grid: &Grid, second: &Matrix<Periodic>, left: &[Periodic]) -> Option<Vec<Periodic>> {
+fn step_at_all_times(
+    grid: &Grid,
+    second: &Matrix<Periodic>,
+    left: &[Periodic],
+    going: &mut Going<'_>,
+) -> Result<Option<Vec<Periodic>>, Error> {
     let (n, times) = (left.len(), grid.times());
     if n * times > MOST_ROWS {
-        return None;
+        return Ok(None);
     }
+    going(of_all_times(n * times))?;
     let row = |variable: usize, time: usize| variable * times + time;
     let mut matrix = DMatrix::<f64>::zeros(n * times, n * times);
     for time in 0..times {
@@ -159,12 +231,12 @@ fn step_at_all_times(grid: &Grid, second: &Matrix<Periodic>, left: &[Periodic]) 
         }
     }
     let residual = DVector::from_iterator(n * times, left.iter().flat_map(|x| (0..times).map(|time| x.at(time).re)));
-    let step = matrix.lu().solve(&residual)?;
+    let Some(step) = matrix.lu().solve(&residual) else { return Ok(None) };
     let of = |values: &[f64]| {
         let function = Periodic::of(&values.iter().map(|&x| x.into()).collect::<Vec<_>>());
         grid.filtered(&function, |at, c| if grid.is_solved(at) { c } else { Complex::zero() }).real_part()
     };
-    Some(step.as_slice().chunks(times).map(of).collect())
+    Ok(Some(step.as_slice().chunks(times).map(of).collect()))
 }
 
 /// The largest so far of the last harmonics of functions, over the size of each function that is above a unit; one for each phase.

@@ -3,6 +3,7 @@
 //! ```text
 //! { "format": "andoyer-driven", "version": 1, "order": N, "variables": [["q", "p"], …],
 //!   "driven": [["M", n, M₀], …], "smallest_divisor": 1e-6,
+//!   "start": [q₁, p₁, …],                                      where one was given
 //!   "hamiltonian": [[[exponents, j …], c], …],                 cos jM for j ≥ 0 and sin |j|M for j < 0
 //!   "actions": [[[exponents], c], …] }                         K in the actions
 //! ```
@@ -50,13 +51,17 @@ pub struct DrivenNormalForm {
     hamiltonian: Polynomial<f64>,
     starts: Vec<f64>,
     smallest_divisor: f64,
+    /// The state near which the periodic motion was searched, at the phase 0.
+    start: Option<Vec<f64>>,
     form: DrivenForm,
 }
 
 /// Two forms are equal if they are of the same Hamiltonian and order.
 impl PartialEq for DrivenNormalForm {
     fn eq(&self, other: &Self) -> bool {
-        let key = |form: &Self| (form.form.order(), form.starts.clone(), form.smallest_divisor, form.rates());
+        let key = |form: &Self| {
+            (form.form.order(), form.starts.clone(), form.smallest_divisor, form.rates(), form.start.clone())
+        };
         key(self) == key(other) && self.space == other.space && self.hamiltonian == other.hamiltonian
     }
 }
@@ -70,6 +75,8 @@ struct Document {
     variables: Vec<(String, String)>,
     driven: Vec<(String, f64, f64)>,
     smallest_divisor: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    start: Option<Vec<f64>>,
     hamiltonian: Vec<(Vec<i64>, Value)>,
     actions: Vec<(Vec<i64>, Value)>,
 }
@@ -100,13 +107,29 @@ impl DrivenNormalForm {
         smallest_divisor: f64,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
+        Self::from_state((hamiltonian, space), order, phases, smallest_divisor, None, progress)
+    }
+
+    /// The normal form about the periodic motion near a state q₁, p₁, … at the phase 0, or without one as of [`new`](Self::new).
+    ///
+    /// # Errors
+    /// - those of [`new`](Self::new); another number of variables, or several phases: [`Error::StartUnsupported`].
+    pub fn from_state(
+        (hamiltonian, space): (&Polynomial<f64>, &PhaseSpace),
+        order: usize,
+        phases: &[(f64, f64)],
+        smallest_divisor: f64,
+        start: Option<&[f64]>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Error> {
         let at = |phases: &[f64]| terms_at(hamiltonian, space, phases);
         let of = |phase: usize| {
             let multiples = hamiltonian.terms().map(|(monomial, _)| space.harmonics(monomial)[phase].unsigned_abs());
             multiples.max().unwrap_or(0) as usize
         };
         let system = SampledHamiltonian::new(space.degrees_of_freedom(), at)
-            .with_harmonics((0..space.driven().len()).map(of).collect());
+            .with_harmonics((0..space.driven().len()).map(of).collect())
+            .with_start(start.map(<[f64]>::to_vec));
         let form = Self::of(&system, order, space, phases, smallest_divisor, progress)?;
         Ok(Self { hamiltonian: hamiltonian.clone(), ..form })
     }
@@ -134,7 +157,9 @@ impl DrivenNormalForm {
         let form = DrivenForm::new(system, &rates, options, progress)?;
         let variables: Vec<_> = (0..2 * system.pairs()).map(Polynomial::variable).collect::<Result<_, _>>()?;
         let rows = system.expanded(form.grid(), &variables, MAX_EXPONENT)?;
-        let mut named = Self { space: space.clone(), hamiltonian: Polynomial::zero(), starts, smallest_divisor, form };
+        let start = system.start().map(<[f64]>::to_vec);
+        let hamiltonian = Polynomial::zero();
+        let mut named = Self { space: space.clone(), hamiltonian, starts, smallest_divisor, start, form };
         named.hamiltonian = named.in_waves(&rows)?;
         Ok(named)
     }
@@ -271,6 +296,7 @@ impl DrivenNormalForm {
             variables: names.chunks(2).map(|pair| (pair[0].to_owned(), pair[1].to_owned())).collect(),
             driven: driven.map(|(name, (rate, start))| (name.to_owned(), rate, start)).collect(),
             smallest_divisor: self.smallest_divisor,
+            start: self.start.clone(),
             hamiltonian: self.hamiltonian.terms().map(term).collect(),
             actions: self.form.in_actions()?.terms().map(action).collect(),
         };
@@ -289,7 +315,8 @@ impl DrivenNormalForm {
         let space = PhaseSpace::new(&pairs)?.with_driven(&names)?;
         let hamiltonian = reals("original hamiltonian", &document.hamiltonian, &space, |_| true)?;
         let phases: Vec<(f64, f64)> = document.driven.iter().map(|&(_, rate, start)| (rate, start)).collect();
-        let form = Self::new(&hamiltonian, document.order, &space, &phases, document.smallest_divisor, progress)?;
+        let (order, bound, start) = (document.order, document.smallest_divisor, document.start.as_deref());
+        let form = Self::from_state((&hamiltonian, &space), order, &phases, bound, start, progress)?;
         // Each action has the slot of its number.
         let mut actions = Polynomial::zero();
         for (exponents, c) in &document.actions {

@@ -1,8 +1,7 @@
 //! A first frame, before Newton's iteration.
 //!
 //! The matrix Φ of solutions over the period of the first phase, with the mean of S over the other phases, has the Cayley transform (Φ − 1)(Φ + 1)⁻¹, which is
-//! diagonalized as the matrix of a quadratic form. The exponents ω are known up to multiples of n: each mode takes the multiple, and the place, where it has the most in common
-//! with a mode of the mean of S, which is that of the Hamiltonian without its drive.
+//! diagonalized as the matrix of a quadratic form. The exponents ω are known up to multiples of n; `branch` has the multiple.
 
 use std::f64::consts::PI;
 
@@ -10,30 +9,37 @@ use nalgebra::DMatrix;
 use num_complex::Complex;
 use num_traits::Zero;
 
+use super::branch::continued;
 use super::grid::Grid;
 use super::monodromy::monodromy;
 use super::row::Periodic;
+use super::work::Going;
 use crate::birkhoff::PhaseSpace;
 use crate::birkhoff::diagonal::Diagonal;
-use crate::birkhoff::matrix::{Matrix, pairing, transposed, turned_rows};
+use crate::birkhoff::matrix::{Matrix, transposed, turned_rows, unit};
 use crate::birkhoff::mode::Mode;
 use crate::birkhoff::schur::eigenvalues as spectrum;
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
 
+/// A double multiplier 1 or −1, to this part of the largest entry of Φ, has no Cayley transform that floats diagonalize: Φ is turned by the second number [rad], which Newton's
+/// iteration takes back.
+const COINCIDENT: f64 = 1e-6;
+const NUDGE: f64 = 1e-5;
 /// A mean below this part of the largest value is rounding.
 const ROUNDING: f64 = 1e-14;
 /// A frame: P, whose centres have the ratio 1, and the modes.
 pub(super) type Frame = (Matrix<Periodic>, Vec<Mode<f64>>);
 
+const WITHOUT_TURN: &str = "include a pair of 1 without two directions, or whose solutions do not turn";
 const QUARTET: &str = "include a quartet off the unit circle: the motion is unstable";
 
 /// A first frame: that of the mean over all phases but the first.
 pub(super) fn start(
     grid: &Grid,
     second: &Matrix<Periodic>,
-    of_one: impl Fn(&Grid, &Matrix<Periodic>) -> Result<Frame, Error>,
+    of_one: impl FnOnce(&Grid, &Matrix<Periodic>) -> Result<Frame, Error>,
 ) -> Result<Frame, Error> {
     // Rounding must not couple pairs: a mean that vanishes is exactly 0.
     let mean = |c: &Periodic| {
@@ -59,27 +65,29 @@ pub(super) fn still(second: &Matrix<Periodic>) -> Result<Frame, Error> {
 }
 
 /// A first frame with one phase or none.
-pub(super) fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Frame, Error> {
+pub(super) fn start_of_one(grid: &Grid, second: &Matrix<Periodic>, going: &mut Going<'_>) -> Result<Frame, Error> {
     let n = second.len();
     if grid.phases() == 0 {
         return still(second);
     }
-    let (rate, course) = (grid.rates()[0], monodromy(grid, second)?);
+    let (rate, course) = (grid.rates()[0], monodromy(grid, second, going)?);
     let period = 2.0 * PI / rate;
-    let last = &course[grid.times()];
-    let one = DMatrix::<f64>::identity(n, n);
+    let multipliers = spectrum(&course[grid.times()]).unwrap_or_default();
     let unsupported = |problem| {
-        let multipliers = spectrum(last).unwrap_or_default().iter().map(|c| [c.re, c.im]).collect();
+        let multipliers = multipliers.iter().map(|c| [c.re, c.im]).collect();
         Error::MultiplierUnsupported { multipliers, problem }
     };
+    let nudged = coincide(&course[grid.times()]);
+    let last = &course[grid.times()] * turn(if nudged { NUDGE } else { 0.0 }, n);
+    let one = DMatrix::<f64>::identity(n, n);
     let inverse =
-        (last + &one).try_inverse().ok_or_else(|| unsupported("are −1, and no frame of this period exists"))?;
-    let cayley = (last - &one) * inverse;
+        (&last + &one).try_inverse().ok_or_else(|| unsupported("are −1, and no frame of this period exists"))?;
+    let cayley = (&last - &one) * inverse;
     // A = −J C, without what rounding leaves of its antisymmetric part.
     let rows: Matrix<f64> = (0..n).map(|i| (0..n).map(|j| cayley[(i, j)]).collect()).collect();
     let turned: Matrix<f64> = turned_rows(&rows).into_iter().map(|row| row.iter().map(|c| -c).collect()).collect();
     let form = (0..n).map(|i| (0..n).map(|j| 0.5 * (turned[i][j] + turned[j][i])).collect()).collect::<Vec<_>>();
-    let found = diagonal(&form).map_err(|_| unsupported("include a pair of 1 without two directions"))?;
+    let found = diagonal(&form).map_err(|_| unsupported(WITHOUT_TURN))?;
     if found.modes.iter().any(|mode| matches!(mode, Mode::Complex { .. })) {
         return Err(unsupported(QUARTET));
     }
@@ -102,8 +110,38 @@ pub(super) fn start_of_one(grid: &Grid, second: &Matrix<Periodic>) -> Result<Fra
         (0..n).map(|row| Periodic::of(&values(row))).collect()
     };
     let columns = columns.iter().zip(&eigenvalues).map(|(column, &lambda)| carried(column, lambda)).collect();
-    let (columns, modes) = continued(grid, columns, modes, undriven(second).ok().as_ref());
+    let planes = undriven(second).map_or_else(|_| unit(n), |mean| mean.matrix);
+    let (columns, modes) = continued(grid, columns, modes, &planes);
+    if nudged && modes.iter().any(|mode| mode.frequency().norm() * period.abs() < 2.0 * NUDGE) {
+        return Err(unsupported(WITHOUT_TURN));
+    }
     Ok((transposed(&columns), modes))
+}
+
+/// Whether Φ has a double multiplier 1 or −1 with two directions.
+fn coincide(last: &DMatrix<f64>) -> bool {
+    let n = last.nrows();
+    let near = |sign: f64| {
+        let values = (last - DMatrix::identity(n, n) * sign).singular_values();
+        values.iter().filter(|&&value| value < COINCIDENT * last.amax()).count() > 1
+    };
+    near(1.0) || near(-1.0)
+}
+
+/// A rotation of every pair by a small angle.
+fn turn(angle: f64, n: usize) -> DMatrix<f64> {
+    let entry = |i: usize, j: usize| match (i == j, i ^ 1 == j) {
+        (true, _) => angle.cos(),
+        (_, true) => {
+            if i < j {
+                angle.sin()
+            } else {
+                -angle.sin()
+            }
+        }
+        _ => 0.0,
+    };
+    DMatrix::from_fn(n, n, entry)
 }
 
 /// Exponents for the frequencies of the form, which are the tangents of half the angles over a period; false for a negative multiplier.
@@ -172,69 +210,4 @@ fn columns(diagonal: &Diagonal<f64>) -> Result<(Columns, Vec<Mode<f64>>), Error>
         }
     }
     Ok((all, modes))
-}
-
-/// The modes in the order, and the frequencies on the branch, of the modes without drive.
-fn continued(
-    grid: &Grid,
-    columns: Vec<Vec<Periodic>>,
-    modes: Vec<Mode<f64>>,
-    undriven: Option<&Diagonal<f64>>,
-) -> (Vec<Vec<Periodic>>, Vec<Mode<f64>>) {
-    let count = modes.len();
-    let known = undriven.and_then(|undriven| self::columns(undriven).ok());
-    let mut overlaps = Vec::new();
-    for mode in 0..count {
-        let harmonics: Vec<_> = columns[2 * mode + 1].iter().map(|entry| grid.harmonics(entry)).collect();
-        for at in 0..grid.times() {
-            let vector: Vec<_> = harmonics.iter().map(|row| row[at]).collect();
-            let places = known.iter().flat_map(|(columns, kinds)| columns.iter().step_by(2).zip(kinds).enumerate());
-            let alike = places.filter(|(_, (_, kind))| kind.is_elliptic() == modes[mode].is_elliptic());
-            let before = overlaps.len();
-            overlaps.extend(alike.map(|(place, (known, _))| (pairing(known, &vector).norm(), mode, place, at)));
-            // A mode of a kind that none has without drive: its largest harmonic.
-            if overlaps.len() == before {
-                overlaps.push((vector.iter().map(Complex::norm_sqr).sum::<f64>(), mode, mode, at));
-            }
-        }
-    }
-    let (mut ordered, mut kinds) = (Vec::new(), Vec::new());
-    for (mode, at) in assigned(overlaps, count) {
-        match &modes[mode] {
-            Mode::Elliptic { frequency, ratio } => {
-                let j = grid.multiples(at)[0];
-                let turn = |sign: f64| grid.sampled(|phases| Complex::cis(sign * j as f64 * phases[0]));
-                let turned = |column: &[Periodic], by: &Periodic| -> Vec<Periodic> {
-                    column.iter().map(|entry| entry.clone() * by.clone()).collect()
-                };
-                ordered.push(turned(&columns[2 * mode], &turn(1.0)));
-                ordered.push(turned(&columns[2 * mode + 1], &turn(-1.0)));
-                kinds.push(Mode::Elliptic { frequency: frequency + grid.rate(at), ratio: *ratio });
-            }
-            saddle => {
-                ordered.extend([columns[2 * mode].clone(), columns[2 * mode + 1].clone()]);
-                kinds.push(saddle.clone());
-            }
-        }
-    }
-    (ordered, kinds)
-}
-
-/// The mode and the harmonic of each place, from overlaps with mode, place and harmonic. Modes that are left take the places that are left.
-fn assigned(mut overlaps: Vec<(f64, usize, usize, usize)>, count: usize) -> Vec<(usize, usize)> {
-    overlaps.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut taken: Vec<Option<(usize, usize)>> = vec![None; count];
-    for (_, mode, place, at) in overlaps {
-        if taken[place].is_none() && taken.iter().flatten().all(|&(other, _)| other != mode) {
-            taken[place] = Some((mode, at));
-        }
-    }
-    for mode in 0..count {
-        if taken.iter().flatten().all(|&(other, _)| other != mode)
-            && let Some(free) = taken.iter_mut().find(|place| place.is_none())
-        {
-            *free = Some((mode, 0));
-        }
-    }
-    taken.into_iter().flatten().collect()
 }

@@ -19,6 +19,7 @@ mod latex;
 mod monomial;
 mod parse;
 mod periodic;
+mod periodic_search;
 mod prime_field;
 mod product;
 mod rigid_body;

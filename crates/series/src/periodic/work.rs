@@ -1,0 +1,61 @@
+//! The work of a periodic motion and its frame, counted before it is done: multiplications of two floats, and what takes as long.
+//!
+//! 3e8 of them take about a second of one core, so that [`MOST`] is below 2 s. The count is the same on every machine.
+
+use super::grid::Grid;
+use crate::error::Error;
+
+/// Most work of a periodic motion and its frame on all grids.
+pub(super) const MOST: f64 = 4e8;
+
+/// Is told the work of the next step, and returns the error that ends the iteration.
+pub type Going<'a> = dyn FnMut(f64) -> Result<(), Error> + 'a;
+
+/// A harmonic transform there and back.
+fn filter(grid: &Grid) -> f64 {
+    let counts: usize = (0..grid.phases()).map(|phase| grid.count(phase)).sum();
+    2.0 * (grid.times() * counts) as f64
+}
+
+/// A Newton step towards the frame of a matrix of n rows.
+pub(super) fn of_frame(grid: &Grid, n: usize) -> f64 {
+    let n = n as f64;
+    2.0 * n * n * filter(grid) + PRODUCTS * 4.0 * n.powi(3) * grid.times() as f64
+}
+
+/// A Taylor step of a matrix of n rows at each time of a grid of one phase.
+pub(super) fn of_taylor_steps(grid: &Grid, n: usize, order: usize) -> f64 {
+    let (n, times) = (n as f64, grid.times() as f64);
+    times * (order * order) as f64 * n.powi(3) / 2.0 + times * times * n * n * (4 * order) as f64
+}
+
+/// The products of matrices in a step towards a frame: most are in the exponential.
+const PRODUCTS: f64 = 12.0;
+
+/// A Newton step towards a periodic motion of n variables without its frame: the Hamiltonian at the times of a grid.
+pub(super) fn of_step(grid: &Grid, n: usize) -> f64 {
+    n as f64 * 2.0 * filter(grid) + HAMILTONIAN * grid.times() as f64
+}
+
+/// A Hamiltonian of some terms at one time.
+const HAMILTONIAN: f64 = 4000.0;
+
+/// The work of a solution at all times together: the elimination of a linear system.
+pub(super) fn of_all_times(rows: usize) -> f64 {
+    (rows as f64).powi(3) / 3.0
+}
+
+/// The error of a grid whose next step is beyond the rest of the work.
+pub(super) fn too_large(grid: &Grid) -> Error {
+    Error::DrivenWorkTooLarge { times: grid.times(), work: MOST }
+}
+
+/// Whether an error of `going` ends the search.
+pub(super) fn ends(error: &Error) -> bool {
+    matches!(error, Error::Interrupted { .. } | Error::DrivenWorkTooLarge { .. })
+}
+
+/// So many values of a coefficient between the times of a grid.
+pub(super) fn of_values(values: usize, times: usize) -> f64 {
+    (values * (times + 100)) as f64
+}
