@@ -21,7 +21,7 @@ use super::hamiltonian::DrivenHamiltonian;
 use super::images::Images;
 use super::motion::PeriodicMotion;
 use super::row::Periodic;
-use super::search::settled;
+use super::search::{DrivenOptions, settled};
 use super::start::eigenvalues;
 use crate::birkhoff::Mode;
 use crate::birkhoff::domain::{Domain, size};
@@ -33,19 +33,6 @@ use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::{Polynomial, Truncation};
 use crate::triangle::{LieTransform, Progress, normalize_backwards};
-
-/// What a normal form about a periodic motion is to have.
-#[derive(Clone, Copy, Debug)]
-pub struct DrivenOptions {
-    /// Terms to degree `order` + 2.
-    pub order: usize,
-    /// Harmonics at the border of the grid are at most this, relative to variables of size 1.
-    pub tolerance: f64,
-    /// Most harmonics H of one phase, a multiple of four. A coefficient is held at the product over the phases of 2H + 1 times.
-    pub harmonics: usize,
-    /// A divisor below this, relative to the largest frequency, is refused.
-    pub smallest_divisor: f64,
-}
 
 /// The normal form of a driven Hamiltonian about its periodic motion.
 #[derive(Clone, Debug)]

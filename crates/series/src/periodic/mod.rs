@@ -28,7 +28,7 @@ mod transport;
 mod work;
 
 pub use divisors::Divisor;
-pub use form::{DrivenForm, DrivenOptions};
+pub use form::DrivenForm;
 pub use fourier::Harmonic;
 pub use grid::Grid;
 pub use hamiltonian::{DrivenHamiltonian, SampledHamiltonian, terms_at};
@@ -36,5 +36,6 @@ pub use motion::{Begin, PeriodicMotion};
 pub use named::{DrivenNormalForm, MAX_DRIVEN_ORDER};
 pub use raw::RawPeriodic;
 pub use row::Periodic;
+pub use search::DrivenOptions;
 pub use state::FormAtPhases;
 pub use work::Going;

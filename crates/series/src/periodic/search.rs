@@ -3,7 +3,6 @@
 //! The iteration begins at the equilibrium, or at the curve through a state that the user knows. Where it ends nowhere, as at the resonance of the phase with a mode, whose first step is a
 //! division by 0, it begins at the periodic motion of a neighbouring rate.
 
-use super::form::DrivenOptions;
 use super::grid::Grid;
 use super::hamiltonian::DrivenHamiltonian;
 use super::motion::{Begin, PeriodicMotion, response};
@@ -22,6 +21,19 @@ const MOST_TIMES: usize = 20_000;
 const FAILURES: usize = 4;
 /// The neighbouring rates, as parts of a rate that are added and taken away.
 const BESIDE: [f64; 3] = [1e-3, 1e-2, 1e-1];
+
+/// What a normal form about a periodic motion is to have.
+#[derive(Clone, Copy, Debug)]
+pub struct DrivenOptions {
+    /// Terms to degree `order` + 2.
+    pub order: usize,
+    /// Harmonics at the border of the grid are at most this, relative to variables of size 1.
+    pub tolerance: f64,
+    /// Most harmonics H of one phase, a multiple of four. A coefficient is held at the product over the phases of 2H + 1 times.
+    pub harmonics: usize,
+    /// A divisor below this, relative to the largest frequency, is refused.
+    pub smallest_divisor: f64,
+}
 
 /// The periodic motion on a grid that is fine enough: it holds the coefficients, and the last harmonics are small. A grid that is too coarse can have no solution; after
 /// `FAILURES` of them there is none.
