@@ -14,9 +14,10 @@ use num_complex::Complex;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::form::{DrivenForm, DrivenOptions};
+use super::form::DrivenForm;
 use super::hamiltonian::{DrivenHamiltonian, SampledHamiltonian, terms_at};
 use super::row::Periodic;
+use super::search::DrivenOptions;
 use crate::birkhoff::actions::action_texts;
 use crate::birkhoff::json::reals;
 use crate::birkhoff::phases::cosines;
