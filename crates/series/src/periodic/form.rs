@@ -132,7 +132,7 @@ impl DrivenForm {
         &self.motion.grid
     }
 
-    /// The modes, with Floquet's exponents as frequencies, on the branch that continues those without drive, and the ratio 1.
+    /// The modes, with Floquet's exponents as frequencies, on the branch of the rotation number, and the ratio 1.
     #[must_use]
     pub fn modes(&self) -> &[Mode<f64>] {
         &self.motion.modes

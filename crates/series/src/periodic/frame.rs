@@ -27,6 +27,13 @@ pub(super) const NOISE: f64 = 1e-12;
 /// Most steps towards P, and their largest size.
 const FRAMES: usize = 25;
 const LARGEST: f64 = 0.3;
+/// A step stalls below so many rounding errors of the frame: a division by a divisor below the rates of S enlarges them. Above the second number the frame is not found.
+const STALLED: f64 = 1000.0;
+const MOST_STALLED: f64 = 1e-4;
+
+const UNREACHED: &str = "have no real frame that Newton's iteration reaches: two nearly coincide, or their exponents are in resonance with the phases";
+const HIDDEN: &str =
+    "belong to solutions that grow and fall again within a period so much that rounding errors hide their frame";
 
 /// The frame of ż = J S z, from a frame of a similar motion or anew. `going` is told the work of each step.
 ///
@@ -64,11 +71,11 @@ pub(super) fn frame(
 fn unreached(grid: &Grid, (change, modes): &Frame) -> Error {
     let tail = |entry: &Periodic| grid.tails(entry).into_iter().fold(0.0, f64::max) / entry.size().max(1.0);
     let rest = change.iter().flatten().map(tail).fold(0.0, f64::max);
-    if rest > SMALL {
+    if rest > SMALL.max(STALLED * rounding(change)) {
         let harmonics = (0..grid.phases()).map(|phase| grid.count(phase) / 2).max().unwrap_or(0);
         return Error::GridTooFine { harmonics, rest, tolerance: SMALL };
     }
-    let problem = "have no real frame that Newton's iteration reaches: two nearly coincide, or their exponents are in resonance with the phases";
+    let problem = if STALLED * rounding(change) > SMALL { HIDDEN } else { UNREACHED };
     Error::MultiplierUnsupported { multipliers: multipliers(grid, modes), problem }
 }
 
@@ -112,7 +119,7 @@ fn refined(
         let step = hamiltonian_part(step);
         let size = step.iter().flatten().map(Periodic::size).fold(0.0, f64::max);
         // A step that rounding makes is not taken.
-        if size > before * SLOWEST && size < SMALL {
+        if size > before * SLOWEST && (size < SMALL || size < (STALLED * rounding(&change)).min(MOST_STALLED)) {
             return Ok(Some((change, modes)));
         }
         if !size.is_finite() {
@@ -126,6 +133,13 @@ fn refined(
         before = size;
     }
     Ok(None)
+}
+
+/// The rounding error of P⁻¹ P: that of one product in each pair, in any units of the variables. It is large where solutions grow and fall again within a period.
+pub(super) fn rounding(change: &Matrix<Periodic>) -> f64 {
+    let largest = |row: &Vec<Periodic>| row.iter().map(Periodic::size).fold(0.0, f64::max);
+    let pairs = change.chunks(2).map(|pair| pair.iter().map(largest).product::<f64>());
+    f64::EPSILON * pairs.fold(0.0, f64::max)
 }
 
 /// The largest modulus of the frequencies and rates of modes.

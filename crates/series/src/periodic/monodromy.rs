@@ -7,13 +7,16 @@ use num_complex::Complex;
 
 use super::grid::Grid;
 use super::row::Periodic;
-use super::work::{Going, of_taylor_steps};
+use super::work::{Going, of_taylor_step};
 use crate::birkhoff::matrix::{Matrix, turned_rows};
 use crate::error::Error;
 
 /// The order of the series; a step times the rates of S and of its harmonics is at most `REACH`, so that the first neglected term is below 1e-17.
 const ORDER: usize = 28;
 const REACH: f64 = 3.0;
+
+/// Harmonics below this part of the largest value are rounding.
+const ROUNDING: f64 = 1e-16;
 
 /// Most steps over a period.
 const MOST_STEPS: usize = 100_000;
@@ -32,8 +35,8 @@ pub(super) fn monodromy(
 ) -> Result<Vec<DMatrix<f64>>, Error> {
     let (n, times, rate) = (second.len(), grid.times(), grid.rates()[0]);
     let moved = turned_rows(second);
-    let harmonics: Vec<Vec<Complex<f64>>> = moved.iter().flatten().map(|entry| grid.harmonics(entry)).collect();
-    let half = (times / 2) as i64;
+    let harmonics: Vec<_> = moved.iter().flatten().map(|entry| harmonics(grid, entry)).collect();
+    let half = times / 2;
     let largest = fastest(second) * n as f64 / rate.abs();
     let gap = TAU / times as f64;
     let parts = (gap * largest.max(half as f64) / REACH).ceil().max(1.0);
@@ -42,13 +45,14 @@ pub(super) fn monodromy(
     }
     let parts = parts as usize;
     let step = gap / parts as f64;
-    going(parts as f64 * of_taylor_steps(grid, n, ORDER))?;
+    let terms = harmonics.iter().map(Vec::len).sum();
+    going((parts * times) as f64 * of_taylor_step(n, ORDER, terms))?;
     let mut course = vec![DMatrix::identity(n, n)];
     let mut last = DMatrix::identity(n, n);
     for place in 0..times {
         for part in 0..parts {
             let start = place as f64 * gap + part as f64 * step;
-            let matrices = taylor(&harmonics, (n, half), start, (step, step / rate));
+            let matrices = taylor(&harmonics, n, start, (step, step / rate));
             last = advanced(&matrices, &last);
         }
         if !last.iter().all(|entry| entry.abs() <= MOST_GROWTH) {
@@ -70,21 +74,18 @@ fn fastest(second: &Matrix<Periodic>) -> f64 {
     entries.map(|(i, j, c)| c.size() * unit(i) * unit(j)).fold(0.0, f64::max)
 }
 
+/// The harmonics of an entry that are above rounding, with their multiples: Newton's iteration towards the frame takes away what the others do.
+fn harmonics(grid: &Grid, entry: &Periodic) -> Vec<(f64, Complex<f64>)> {
+    let rounding = ROUNDING * entry.size();
+    let all = grid.harmonics(entry).into_iter().enumerate().filter(|(_, c)| c.norm() > rounding);
+    all.map(|(at, c)| (grid.multiples(at)[0] as f64, c)).collect()
+}
+
 /// The Taylor coefficients of J S about a phase in powers of a step of the phase, times the step of the time. `steps` are those of the phase and of the time.
-fn taylor(
-    harmonics: &[Vec<Complex<f64>>],
-    (n, half): (usize, i64),
-    start: f64,
-    steps: (f64, f64),
-) -> Vec<DMatrix<f64>> {
-    let times = 2 * half as usize + 1;
+fn taylor(harmonics: &[Vec<(f64, Complex<f64>)>], n: usize, start: f64, steps: (f64, f64)) -> Vec<DMatrix<f64>> {
     let mut matrices = vec![DMatrix::zeros(n, n); ORDER];
     for (entry, all) in harmonics.iter().enumerate() {
-        if all.iter().all(|c| *c == Complex::default()) {
-            continue;
-        }
-        for (at, &c) in all.iter().enumerate() {
-            let j = if at as i64 <= half { at as i64 } else { at as i64 - times as i64 } as f64;
+        for &(j, c) in all {
             let mut term = c * Complex::cis(j * start) * steps.1;
             for (k, matrix) in matrices.iter_mut().enumerate() {
                 matrix[(entry / n, entry % n)] += term.re;

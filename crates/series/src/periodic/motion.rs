@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 use num_traits::Zero;
 
-use super::frame::{NOISE, REACHED, SLOWEST, SMALL, fastest, frame, solved};
+use super::frame::{NOISE, REACHED, SLOWEST, SMALL, fastest, frame, rounding, solved};
 use super::grid::Grid;
 use super::hamiltonian::DrivenHamiltonian;
 use super::row::{Periodic, product};
@@ -24,6 +24,10 @@ use crate::polynomial::Polynomial;
 const STEPS: usize = 40;
 /// The largest linear system of a step without a frame.
 const MOST_ROWS: usize = 1000;
+/// A frame on the way to the motion is worth so many eliminations of that system.
+const ELIMINATIONS: f64 = 100.0;
+/// The last harmonics are rounding below so many rounding errors of the frame.
+const ROUNDED: f64 = 16.0;
 
 /// A periodic motion and the frame of Floquet about it.
 #[derive(Clone, Debug)]
@@ -75,6 +79,7 @@ impl PeriodicMotion {
     ) -> Result<Self, Error> {
         let (mut origin, mut kept) = begun(&grid, 2 * system.pairs(), begin);
         let (mut before, mut frameless, mut response) = (f64::INFINITY, None, None);
+        let most = without_frame(&grid, origin.len());
         for number in 1..=STEPS {
             going(of_step(&grid, origin.len()))?;
             let (slopes, second) = quadratic(system, &grid, &origin)?;
@@ -83,7 +88,11 @@ impl PeriodicMotion {
                 *left -= &grid.derivative(x);
             }
             if frameless.is_none() {
-                match frame(&grid, &second, kept.take(), going) {
+                let mut within = |work: f64| match work > most && number > 1 {
+                    true => Err(Error::NoPeriodicMotion { miss: before, steps: number }),
+                    false => going(work),
+                };
+                match frame(&grid, &second, kept.take(), &mut within) {
                     Ok(found) => kept = Some(found),
                     Err(error) if ends(&error) => return Err(error),
                     // That of a step is not that of the periodic motion.
@@ -124,6 +133,11 @@ impl PeriodicMotion {
     pub(super) fn begin(&self) -> Begin {
         let frame = Some((self.change.clone(), self.modes.clone()));
         Begin { grid: self.grid.clone(), origin: self.origin.clone(), frame, is_opposite: self.is_opposite }
+    }
+
+    /// The last harmonics of a frame on any grid are at least some rounding errors.
+    pub(super) fn rounding(&self) -> f64 {
+        ROUNDED * rounding(&self.change)
     }
 
     /// The largest variable of x̄.
@@ -202,6 +216,13 @@ fn step_in_frame(grid: &Grid, (change, modes): &Frame, left: &[Periodic]) -> Vec
     let step: Matrix<Periodic> =
         rows.map(|(row, lambda)| vec![solved(grid, &row[0], (lambda, noise), false)]).collect();
     product(change, &step).into_iter().map(|row| row[0].real_part()).collect()
+}
+
+/// The most work at once for a frame along a curve that is no motion yet. Far from one the rates of S are so large that the matrix of solutions takes all the work of the search; the step
+/// at all times together takes this part of it.
+fn without_frame(grid: &Grid, variables: usize) -> f64 {
+    let rows = variables * grid.times();
+    if rows > MOST_ROWS { f64::INFINITY } else { ELIMINATIONS * of_all_times(rows) }
 }
 
 /// The Newton step without a frame, by one linear system for all times; none beyond [`MOST_ROWS`] and where the system is singular.

@@ -43,9 +43,7 @@ pub(super) fn settled(
     DrivenOptions { order, tolerance, harmonics, .. }: DrivenOptions,
     progress: &mut Progress<'_>,
 ) -> Result<PeriodicMotion, Error> {
-    let first = system.harmonics().iter().copied().chain(std::iter::repeat(FEWEST));
-    let rounded = |half: usize| half.max(FEWEST).next_multiple_of(4).min(harmonics);
-    let mut halves: Vec<usize> = first.take(rates.len()).map(rounded).collect();
+    let mut halves = first(system, rates.len(), harmonics);
     let (mut known, mut failures, mut spent): (Option<Begin>, _, _) = (None, 0, 0.0);
     loop {
         let phases: Vec<_> = rates.iter().copied().zip(halves.iter().copied()).collect();
@@ -66,14 +64,9 @@ pub(super) fn settled(
         if failures == FAILURES && matches!(found, Some(Err(Error::NoPeriodicMotion { .. }))) {
             found = beside(system, &grid, &mut going)?.map(Ok).or(found);
         }
-        let tails = match &found {
-            Some(Ok(motion)) => motion.tails.clone(),
-            Some(Err(error)) if ends(error) => return Err(error.clone()),
-            Some(Err(_)) => vec![f64::INFINITY; rates.len()],
-            // Infinite for a NaN.
-            None => vec![if between.is_nan() { f64::INFINITY } else { between }; rates.len()],
-        };
-        let coarse: Vec<bool> = tails.iter().map(|&tail| tail > tolerance).collect();
+        let tails = tails(found.as_ref(), between, rates.len())?;
+        let rounding = || found.as_ref().and_then(|found| found.as_ref().ok()).map_or(0.0, PeriodicMotion::rounding);
+        let coarse: Vec<bool> = tails.iter().map(|&tail| tail > tolerance && tail > rounding()).collect();
         let is_last = failures >= FAILURES && matches!(found, Some(Err(_)));
         if let Some(found) = &found
             && (!coarse.contains(&true) || is_last || rates.is_empty())
@@ -90,6 +83,26 @@ pub(super) fn settled(
             *half = (*half + *half / 4).next_multiple_of(4).min(harmonics);
         }
     }
+}
+
+/// The harmonics of each phase on the first grid.
+fn first(system: &dyn DrivenHamiltonian, phases: usize, harmonics: usize) -> Vec<usize> {
+    let known = system.harmonics().iter().copied().chain(std::iter::repeat(FEWEST));
+    known.take(phases).map(|half| half.max(FEWEST).next_multiple_of(4).min(harmonics)).collect()
+}
+
+/// The last harmonics of a motion, or of the coefficients where these are not resolved; infinite without a motion.
+///
+/// # Errors
+/// - Those that end the search.
+fn tails(found: Option<&Result<PeriodicMotion, Error>>, between: f64, phases: usize) -> Result<Vec<f64>, Error> {
+    Ok(match found {
+        Some(Ok(motion)) => motion.tails.clone(),
+        Some(Err(error)) if ends(error) => return Err(error.clone()),
+        Some(Err(_)) => vec![f64::INFINITY; phases],
+        // Infinite for a NaN.
+        None => vec![if between.is_nan() { f64::INFINITY } else { between }; phases],
+    })
 }
 
 /// The periodic motion from that of a coarser grid, from the state that the user knows, or from the equilibrium.

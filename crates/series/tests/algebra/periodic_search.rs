@@ -70,6 +70,40 @@ fn exponents_of_mathieu_are_its_rotation_numbers_at_each_way_to_write_the_drive(
     Ok(())
 }
 
+/// a, q, and the exponent: between n and n + 1 by the characteristic values a_n < a < b_{n+1} of SciPy's `mathieu_a` and `mathieu_b`, and a root of Hill's determinant, as two continued
+/// fractions, in 40 digits of mpmath. In the last ten the solutions grow by up to 1e8 and fall again within a period, so that rounding errors are far above 1e-12.
+const IN_BANDS: [(f64, f64, f64); 20] = [
+    (-9.06854852602081, 30.321372995192494, 2.532378254),
+    (5.786076866742202, 35.21519833840915, 3.372455109),
+    (23.282961690351044, 38.223720797067365, 4.477779570),
+    (39.869233526524646, 24.059004375346817, 5.291047684),
+    (51.48020460012074, 22.25263844040495, 6.726976196),
+    (64.8266369819395, 18.432421440118745, 7.870256632),
+    (74.45713409667084, 20.818672051025175, 8.442223503),
+    (106.58956453724969, 45.371747411081714, 9.713943225),
+    (124.10966742100764, 39.21136977942661, 10.826476793),
+    (133.59159683824842, 45.31325197305112, 11.174900015),
+    (-27.75115241573261, 29.521105247429354, 1.113964780),
+    (-38.3635721897008, 36.70652805750474, 1.747509918),
+    (-50.3464125944604, 30.57459692609079, 0.327843997),
+    (-56.46057319131988, 33.927111039083876, 0.647885689),
+    (-53.17919826316713, 46.37053362268842, 1.849468638),
+    (-12.061760355192535, 33.025691048215165, 2.608972601),
+    (-10.736673208883765, 17.113360133081077, 1.895466326),
+    (-28.89313993659326, 18.63433719613766, 0.278592379),
+    (-6.64608927502285, 48.899331184805554, 3.709272042),
+    (-11.588440589318054, 32.60417444492933, 2.604453349),
+];
+
+#[test]
+fn exponents_of_mathieu_between_two_characteristic_values_have_their_order() -> Result<(), Error> {
+    for (a, q, expected) in IN_BANDS {
+        let found = omegas(&form(&format!("(p^2 + {a}*x^2)/2 - {q}*x^2*cos(M)"), &[("x", "p")], &[2.0], None)?)[0];
+        assert!((found - expected).abs() < 2e-6, "a = {a}, q = {q}: {found}, {expected}");
+    }
+    Ok(())
+}
+
 #[test]
 fn exponents_of_several_pairs_are_the_rotation_numbers_of_each() -> Result<(), Error> {
     // Two equations of Mathieu, the second with a negative energy, in one frame and behind a shear p → p + c y, s → s + c x; the last ones have one frequency without the drive.
@@ -109,7 +143,7 @@ fn a_double_multiplier_with_two_directions_has_a_frame() -> Result<(), Error> {
 fn growth_beyond_floats_is_named() {
     let text = "(p^2 - x^2)/2 + 0.3*p*x + 0.8*x^2*cos(M)";
     let found = form(text, &[("x", "p")], &[0.005], None);
-    assert!(matches!(found, Err(Error::GrowthTooLarge { .. })) || found.is_ok_and(|form| omegas(&form)[0] == 0.0));
+    assert!(matches!(found, Err(Error::GrowthTooLarge { .. })), "{found:?}");
 }
 
 /// sin x as a polynomial whose first neglected term is 2e-8 at x = 1.94.
