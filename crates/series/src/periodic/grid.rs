@@ -247,6 +247,29 @@ impl Grid {
         Periodic::Row(row.into())
     }
 
+    /// A function of another grid of the same phases, with the harmonics that both grids hold.
+    pub(super) fn with_harmonics_of(&self, other: &Self, function: &Periodic) -> Periodic {
+        if matches!(function, Periodic::Constant(_)) {
+            return function.clone();
+        }
+        let mut harmonics = vec![Complex::default(); self.times()];
+        for (at, c) in other.harmonics(function).into_iter().enumerate() {
+            if let Some(at) = self.place(&other.multiples(at)) {
+                harmonics[at] = c;
+            }
+        }
+        self.function(&harmonics)
+    }
+
+    /// The index of the harmonic with these multiples; none beyond the border.
+    fn place(&self, multiples: &[i64]) -> Option<usize> {
+        let mut places = multiples.iter().zip(&self.axes);
+        places.try_fold(0, |sum, (&j, axis)| {
+            let is_held = 2 * j.unsigned_abs() < axis.count as u64;
+            is_held.then(|| sum * axis.count + j.rem_euclid(axis.count as i64) as usize)
+        })
+    }
+
     /// Σ_j x_j e^{± 2πi kj/N} along each axis.
     fn transform(&self, row: &mut [f64], sign: f64) {
         let times = self.times();

@@ -26,8 +26,10 @@ const STEPS: usize = 40;
 const MOST_ROWS: usize = 1000;
 /// A frame on the way to the motion is worth so many eliminations of that system.
 const ELIMINATIONS: f64 = 100.0;
+/// A grid holds the turns of a frame if its last harmonics are below this part.
+const HELD: f64 = 1e-2;
 /// The last harmonics are rounding below so many rounding errors of the frame.
-const ROUNDED: f64 = 16.0;
+const ROUNDED: f64 = 32.0;
 
 /// A periodic motion and the frame of Floquet about it.
 #[derive(Clone, Debug)]
@@ -129,9 +131,10 @@ impl PeriodicMotion {
         Err(Error::NoPeriodicMotion { miss: before, steps: STEPS })
     }
 
-    /// This motion and its frame as those to begin with.
+    /// This motion as that to begin with, and its frame if the grid holds it: turns between the times of a coarse grid are counted wrongly.
     pub(super) fn begin(&self) -> Begin {
-        let frame = Some((self.change.clone(), self.modes.clone()));
+        let is_held = self.tails.iter().all(|&tail| tail < HELD);
+        let frame = is_held.then(|| (self.change.clone(), self.modes.clone()));
         Begin { grid: self.grid.clone(), origin: self.origin.clone(), frame, is_opposite: self.is_opposite }
     }
 
@@ -163,7 +166,7 @@ impl PeriodicMotion {
 /// The curve and the frame to begin with, on a grid.
 fn begun(grid: &Grid, variables: usize, begin: Option<&Begin>) -> (Vec<Periodic>, Option<Frame>) {
     let Some(begin) = begin else { return (vec![Periodic::zero(); variables], None) };
-    let onto = |function: &Periodic| grid.sampled(|phases| function.weighted(&begin.grid.weights(phases)));
+    let onto = |function: &Periodic| grid.with_harmonics_of(&begin.grid, function);
     let frame = begin
         .frame
         .as_ref()

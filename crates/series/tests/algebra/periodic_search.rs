@@ -105,6 +105,15 @@ fn exponents_of_mathieu_between_two_characteristic_values_have_their_order() -> 
 }
 
 #[test]
+fn the_exponent_of_a_slow_drive_is_the_mean_frequency() -> Result<(), Error> {
+    // The phase of the solution turns by some 36 turns more and less than the mean one over the period. Expected: the mean of √(1 + 0.6 cos M), the adiabatic limit, whose error is of the square of the rate.
+    let mean = (0..1000).map(|k| (1.0 + 0.6 * (TAU * f64::from(k) / 1000.0).cos()).sqrt()).sum::<f64>() / 1000.0;
+    let found = omegas(&form("(p^2 + x^2)/2 + 0.3*x^2*cos(M)", &[("x", "p")], &[0.004], None)?)[0];
+    assert!((found - mean).abs() < 1e-5, "{found}, {mean}");
+    Ok(())
+}
+
+#[test]
 fn exponents_of_several_pairs_are_the_rotation_numbers_of_each() -> Result<(), Error> {
     // Two equations of Mathieu, the second with a negative energy, in one frame and behind a shear p → p + c y, s → s + c x; the last ones have one frequency without the drive.
     for ((a, q), (b, r), sign) in [
