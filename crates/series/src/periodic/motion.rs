@@ -24,8 +24,9 @@ use crate::polynomial::Polynomial;
 const STEPS: usize = 40;
 /// The largest linear system of a step without a frame.
 const MOST_ROWS: usize = 1000;
-/// A frame on the way to the motion is worth so many eliminations of that system.
+/// A step towards a frame takes at most so many eliminations of that system, or so many times the work of the first one.
 const ELIMINATIONS: f64 = 100.0;
+const FARTHER: f64 = 30.0;
 /// A grid holds the turns of a frame if its last harmonics are below this part.
 const HELD: f64 = 1e-2;
 /// The last harmonics are rounding below so many rounding errors of the frame.
@@ -81,7 +82,7 @@ impl PeriodicMotion {
     ) -> Result<Self, Error> {
         let (mut origin, mut kept) = begun(&grid, 2 * system.pairs(), begin);
         let (mut before, mut frameless, mut response) = (f64::INFINITY, None, None);
-        let most = without_frame(&grid, origin.len());
+        let mut most = without_frame(&grid, origin.len());
         for number in 1..=STEPS {
             going(of_step(&grid, origin.len()))?;
             let (slopes, second) = quadratic(system, &grid, &origin)?;
@@ -90,11 +91,11 @@ impl PeriodicMotion {
                 *left -= &grid.derivative(x);
             }
             if frameless.is_none() {
-                let mut within = |work: f64| match work > most && number > 1 {
-                    true => Err(Error::NoPeriodicMotion { miss: before, steps: number }),
-                    false => going(work),
+                let mut told = |work: f64| {
+                    most = if number == 1 { most.max(FARTHER * work) } else { most };
+                    within(most, work, (before, number), going)
                 };
-                match frame(&grid, &second, kept.take(), &mut within) {
+                match frame(&grid, &second, kept.take(), &mut told) {
                     Ok(found) => kept = Some(found),
                     Err(error) if ends(&error) => return Err(error),
                     // That of a step is not that of the periodic motion.
@@ -116,7 +117,8 @@ impl PeriodicMotion {
             let slow = size > before * SLOWEST && size < SMALL * scale;
             if size <= REACHED * scale || slow {
                 let (slopes, second) = quadratic(system, &grid, &origin)?;
-                let (change, modes) = frame(&grid, &second, kept, going)?;
+                let mut told = |work: f64| within(most, work, (size, number), going);
+                let (change, modes) = frame(&grid, &second, kept, &mut told)?;
                 let mut tails = vec![0.0; grid.phases()];
                 add_tails(&mut tails, &grid, origin.iter().chain(change.iter().flatten()), 1.0);
                 add_tails(&mut tails, &grid, slopes.iter().chain(second.iter().flatten()), fastest(&modes));
@@ -221,11 +223,16 @@ fn step_in_frame(grid: &Grid, (change, modes): &Frame, left: &[Periodic]) -> Vec
     product(change, &step).into_iter().map(|row| row[0].real_part()).collect()
 }
 
-/// The most work at once for a frame along a curve that is no motion yet. Far from one the rates of S are so large that the matrix of solutions takes all the work of the search; the step
-/// at all times together takes this part of it.
+/// The work of some eliminations of the system at all times together.
 fn without_frame(grid: &Grid, variables: usize) -> f64 {
     let rows = variables * grid.times();
     if rows > MOST_ROWS { f64::INFINITY } else { ELIMINATIONS * of_all_times(rows) }
+}
+
+/// `going` without more than `most` work at once. Far from the equilibrium the rates of S can be so large that the matrix of solutions takes all the work of the search: there is no motion
+/// that a grid of these times holds.
+fn within(most: f64, work: f64, (miss, steps): (f64, usize), going: &mut Going<'_>) -> Result<(), Error> {
+    if work > most { Err(Error::NoPeriodicMotion { miss, steps }) } else { going(work) }
 }
 
 /// The Newton step without a frame, by one linear system for all times; none beyond [`MOST_ROWS`] and where the system is singular.

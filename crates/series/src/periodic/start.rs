@@ -23,9 +23,10 @@ use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
 
-/// A double multiplier 1 or −1, to this part of the largest entry of Φ, has no Cayley transform that floats diagonalize: Φ is turned by the second number [rad], which Newton's
-/// iteration takes back.
+/// A double multiplier 1 or −1, to this distance or to the rounding errors of Φ, the second number times its largest entry, has no Cayley transform that floats diagonalize: Φ is turned
+/// by the third number [rad], which Newton's iteration takes back.
 const COINCIDENT: f64 = 1e-6;
+const ROUNDED: f64 = 1e-14;
 const NUDGE: f64 = 1e-5;
 /// A mean below this part of the largest value is rounding.
 const ROUNDING: f64 = 1e-14;
@@ -123,7 +124,7 @@ fn coincide(last: &DMatrix<f64>) -> bool {
     let n = last.nrows();
     let near = |sign: f64| {
         let values = (last - DMatrix::identity(n, n) * sign).singular_values();
-        values.iter().filter(|&&value| value < COINCIDENT * last.amax()).count() > 1
+        values.iter().filter(|&&value| value < COINCIDENT.max(ROUNDED * last.amax())).count() > 1
     };
     near(1.0) || near(-1.0)
 }
