@@ -6,12 +6,12 @@ mod short;
 use std::hint::black_box;
 
 use andoyer_benches::{SHAPE, planar};
-use andoyer_series::periodic::{DrivenForm, DrivenHamiltonian, DrivenOptions};
+use andoyer_series::periodic::{DrivenForm, DrivenHamiltonian, DrivenOptions, MOST_WORK};
 use andoyer_series::progress::quiet;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 
 fn form(system: &dyn DrivenHamiltonian, order: usize, tolerance: f64) -> DrivenForm {
-    let options = DrivenOptions { order, tolerance, harmonics: 252, smallest_divisor: 1e-9 };
+    let options = DrivenOptions { order, tolerance, harmonics: 252, smallest_divisor: 1e-9, work: MOST_WORK };
     DrivenForm::new(system, &[1.0], options, &mut quiet).expect("no resonance")
 }
 

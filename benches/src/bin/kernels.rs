@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use andoyer_benches::{bodies, disturbed, locked, planar, triaxial, wobbling};
 use andoyer_propagate::{Ensemble, Method, Orbit};
-use andoyer_series::periodic::{DrivenForm, DrivenOptions};
+use andoyer_series::periodic::{DrivenForm, DrivenOptions, MOST_WORK};
 use andoyer_series::progress::quiet;
 use andoyer_series::{NormalForm, NumericNormalForm};
 
@@ -82,7 +82,7 @@ fn libration() {
 
 /// The form of order 6 about the periodic planar libration on an orbit of eccentricity 0.05.
 fn periodic() {
-    let options = DrivenOptions { order: 6, tolerance: 1e-10, harmonics: 252, smallest_divisor: 1e-9 };
+    let options = DrivenOptions { order: 6, tolerance: 1e-10, harmonics: 252, smallest_divisor: 1e-9, work: MOST_WORK };
     let form = DrivenForm::new(&planar(0.05, 8), &[1.0], black_box(options), &mut quiet).expect("no resonance");
     assert_eq!(form.modes().len(), 1);
 }

@@ -7,11 +7,11 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use andoyer_series::Error as SeriesError;
-use andoyer_series::periodic::DrivenForm;
+use andoyer_series::periodic::{DrivenForm, MOST_WORK};
 
 use super::convergence::Convergence;
 use super::course::FourierMotion;
-use super::form::{self, MOST_PRODUCTS};
+use super::form;
 use super::lock::Lock;
 use super::residual::residual;
 use crate::error::Error;
@@ -66,6 +66,11 @@ impl Wanted {
     fn longest(&self) -> f64 {
         self.reach.into_iter().fold(0.0_f64, |most, time| most.max(time.abs()))
     }
+
+    /// The most work of the periodic motion and all forms, in multiplications of two floats. An order that somebody asks for has no limit.
+    fn most_work(&self) -> f64 {
+        if self.order.is_some() { f64::INFINITY } else { MOST_WORK }
+    }
 }
 
 /// The motion of a lock: the lowest order whose estimate meets the tolerance, or the order with the least estimate, or that which was asked for; or why there is none.
@@ -84,92 +89,120 @@ fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libra
     if let Some(order) = wanted.order.filter(|order| !ORDERS.contains(order)) {
         return Ok(Err(format!("its order is from {} to {}, not {order}", ORDERS.start(), ORDERS.end())));
     }
-    let longest = wanted.longest();
-    let motion =
-        |form: &DrivenForm, normal: &[f64]| FourierMotion::new(form, lock, normal, NEGLIGIBLE * wanted.tolerance);
-    let limited = wanted.order.is_none();
-    let mut form = match form::periodic(&lock.shape, wanted.tolerance, limited, stop) {
-        Err(SeriesError::GridTooLarge { times, bound }) if limited => return Ok(Err(of_steps(times, bound))),
+    let form = match form::periodic(&lock.shape, wanted.tolerance, wanted.most_work(), stop) {
+        Err(SeriesError::DrivenWorkTooLarge { times, .. }) => return Ok(Err(of_periodic_motion(times))),
         form => form?,
     };
-    let linear = motion(&form, &form.at(&lock.shape.driven(lock.start)).to_normal(&lock.state)?)?;
+    let mut climb = Climb { lock, wanted, best: None, residual: None, left_out: None };
+    let linear = climb.motion(&form, &form.at(&lock.shape.driven(lock.start)).to_normal(&lock.state)?)?;
     // A libration in longitude is below a quarter turn.
     if linear.angle() > FRAC_PI_2 {
         return Ok(Err(limit(lock, &linear, &linear)));
     }
-    let highest = wanted.order.unwrap_or(HIGHEST[lock.shape.rates().len()]);
-    let (mut best, mut residual): (Option<(Arc<DrivenForm>, Convergence)>, Option<f64>) = (None, None);
-    let (mut made, mut left_out) = (0.0, None);
-    for order in (wanted.order.unwrap_or(FIRST)..=highest).step_by(2) {
-        made += form::products(&lock.shape, order, form.grid().times());
-        if limited && made > MOST_PRODUCTS {
-            left_out = Some(of_order(order, made, &form));
-            break;
-        }
-        form = match form::to_order(&form, &lock.shape, order, wanted.tolerance, stop) {
-            Err(error) if best.is_none() || matches!(error, SeriesError::Interrupted { .. }) => return Err(error),
-            Err(_) => break,
-            Ok(form) => form,
-        };
-        let convergence = match Convergence::new(&form, lock, longest) {
-            Err(SeriesError::NotFinite { .. }) => break,
-            convergence => convergence?,
-        };
-        let mut stays = false;
-        if convergence.error() <= wanted.tolerance
-            && let Some(libration) = libration(&form, &convergence, lock, wanted)?
-        {
-            if libration.error <= wanted.tolerance {
-                return Ok(Ok(libration));
+    match climb.lowest(form, stop)? {
+        Some(libration) => Ok(Ok(libration)),
+        None => climb.best(&linear),
+    }
+}
+
+/// The orders of a lock, tried one after another.
+struct Climb<'a> {
+    lock: &'a Lock,
+    wanted: &'a Wanted,
+    /// The form with the least estimate.
+    best: Option<(Arc<DrivenForm>, Convergence)>,
+    /// The residual of the last series that was inserted into the equations of motion.
+    residual: Option<f64>,
+    /// Why no higher order is tried, if its cost is the reason.
+    left_out: Option<String>,
+}
+
+impl Climb<'_> {
+    /// The series of a state by a form.
+    fn motion(&self, form: &DrivenForm, normal: &[f64]) -> Result<FourierMotion, SeriesError> {
+        FourierMotion::new(form, self.lock, normal, NEGLIGIBLE * self.wanted.tolerance)
+    }
+
+    /// The motion of the lowest order that meets the tolerance, if one does. `form` is that of order 0.
+    fn lowest(&mut self, mut form: Arc<DrivenForm>, stop: &AtomicBool) -> Result<Option<Libration>, SeriesError> {
+        let Self { lock, wanted, .. } = *self;
+        let highest = wanted.order.unwrap_or(HIGHEST[lock.shape.rates().len()]);
+        let mut work = form.work();
+        for order in (wanted.order.unwrap_or(FIRST)..=highest).step_by(2) {
+            work += form::work(&lock.shape, order, form.grid().times());
+            if work > wanted.most_work() {
+                self.left_out = Some(of_order(order, work, &form));
+                break;
             }
-            stays = residual.is_some_and(|before| libration.residual >= before);
-            residual = Some(libration.residual);
+            form = match form::to_order(&form, &lock.shape, order, wanted.tolerance, stop) {
+                Err(error) if self.best.is_none() || matches!(error, SeriesError::Interrupted { .. }) => {
+                    return Err(error);
+                }
+                Err(_) => break,
+                Ok(form) => form,
+            };
+            let convergence = match Convergence::new(&form, lock, wanted.longest()) {
+                Err(SeriesError::NotFinite { .. }) => break,
+                convergence => convergence?,
+            };
+            let mut stays = false;
+            if convergence.error() <= wanted.tolerance
+                && let Some(libration) = libration(&form, &convergence, lock, wanted)?
+            {
+                if libration.error <= wanted.tolerance {
+                    return Ok(Some(libration));
+                }
+                stays = self.residual.is_some_and(|before| libration.residual >= before);
+                self.residual = Some(libration.residual);
+            }
+            let misses = wanted.strict && convergence.will_miss(highest - order, wanted.tolerance);
+            let ends = stays || convergence.is_over() || misses;
+            if self.best.as_ref().is_none_or(|(_, best)| convergence.error().total_cmp(&best.error()).is_lt()) {
+                self.best = Some((Arc::clone(&form), convergence));
+            }
+            if ends {
+                break;
+            }
         }
-        let ends = stays
-            || convergence.is_over()
-            || (wanted.strict && convergence.will_miss(highest - order, wanted.tolerance));
-        if best.as_ref().is_none_or(|(_, best)| convergence.error().total_cmp(&best.error()).is_lt()) {
-            best = Some((Arc::clone(&form), convergence));
-        }
-        // A further order takes some seconds.
-        if ends {
-            break;
-        }
+        Ok(None)
     }
-    let Some((form, convergence)) = best else {
-        return Ok(Err(left_out.unwrap_or_else(|| limit(lock, &linear, &linear))));
-    };
-    let error = convergence.error() + residual.unwrap_or(0.0);
-    if !(wanted.strict || error > PI)
-        && let Some(libration) = libration(&form, &convergence, lock, wanted)?.filter(|found| found.error < PI)
-    {
-        return Ok(Ok(Libration { left_out, ..libration }));
+
+    /// The motion of the order with the least estimate, or why there is none. `linear` is the motion of order 0.
+    fn best(self, linear: &FourierMotion) -> Result<Result<Libration, String>, SeriesError> {
+        let Self { lock, wanted, .. } = self;
+        let Some((form, convergence)) = &self.best else {
+            return Ok(Err(self.left_out.unwrap_or_else(|| limit(lock, linear, linear))));
+        };
+        let error = convergence.error() + self.residual.unwrap_or(0.0);
+        if !(wanted.strict || error > PI)
+            && let Some(libration) = libration(form, convergence, lock, wanted)?.filter(|found| found.error < PI)
+        {
+            return Ok(Ok(Libration { left_out: self.left_out, ..libration }));
+        }
+        let limit = match &self.left_out {
+            Some(cost) => cost.clone(),
+            None => limit(lock, linear, &self.motion(form, &convergence.normal)?),
+        };
+        Ok(Err(if error < PI { format!("its error bound is {}; {limit}", bound_in_words(error)) } else { limit }))
     }
-    let limit = match left_out {
-        Some(cost) => cost,
-        None => limit(lock, &linear, &motion(&form, &convergence.normal)?),
-    };
-    Ok(Err(if error < PI { format!("its error bound is {}; {limit}", bound_in_words(error)) } else { limit }))
 }
 
-/// Why an order is not tried: the products of all orders up to it.
-fn of_order(order: usize, products: f64, form: &DrivenForm) -> String {
+/// Why an order is not tried: the work of the periodic motion and of all orders up to it.
+fn of_order(order: usize, work: f64, form: &DrivenForm) -> String {
     let times = form.grid().times();
-    let what =
-        format!("orders to {order} take about {products:.1e} products of terms ({times} times of the orbit's phases)");
-    costly(&what, MOST_PRODUCTS, order)
+    let what = format!("orders to {order} take about {work:.1e} multiplications ({times} times of the orbit's phases)");
+    costly(&what, order)
 }
 
-/// Why no periodic motion is found: the cost of its steps.
-fn of_steps(times: usize, bound: usize) -> String {
-    let what = format!("the periodic motion takes steps at {times} times of the orbit's phases");
-    costly(&what, bound as f64, FIRST)
+/// Why no periodic motion is found: the work of its search.
+fn of_periodic_motion(times: usize) -> String {
+    costly(&format!("the periodic motion takes more multiplications ({times} times of the orbit's phases)"), FIRST)
 }
 
 /// A cost with the largest one that needs no order, and what to do.
-fn costly(what: &str, bound: f64, order: usize) -> String {
+fn costly(what: &str, order: usize) -> String {
     format!(
-        "{what}, and at most {bound:.0e} are made unless order={order} asks for them; methods \"auto\" and \"integrated\" integrate over a span"
+        "{what}, and at most {MOST_WORK:.0e} are made unless order={order} asks for them; methods \"auto\" and \"integrated\" integrate over a span"
     )
 }
 

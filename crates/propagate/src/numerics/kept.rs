@@ -83,13 +83,14 @@ impl KeptForms {
 mod tests {
     use super::*;
     use andoyer_series::Monomial;
-    use andoyer_series::periodic::{DrivenOptions, SampledHamiltonian};
+    use andoyer_series::periodic::{DrivenOptions, MOST_WORK, SampledHamiltonian};
     use andoyer_series::progress::quiet;
 
     fn pendulum(order: usize) -> Result<DrivenForm, Error> {
         let term = |q, p, c| Ok((Monomial::new(&[q, p])?, c));
         let terms = |_: &[f64]| [term(0, 2, 0.5), term(2, 0, 0.5), term(4, 0, -1.0 / 24.0)].into_iter().collect();
-        let options = DrivenOptions { order, tolerance: 1e-12, harmonics: 252, smallest_divisor: 1e-9 };
+        let options =
+            DrivenOptions { order, tolerance: 1e-12, harmonics: 252, smallest_divisor: 1e-9, work: MOST_WORK };
         DrivenForm::new(&SampledHamiltonian::new(1, terms), &[], options, &mut quiet)
     }
 

@@ -38,6 +38,8 @@ use crate::triangle::{LieTransform, Progress, normalize_backwards};
 #[derive(Clone, Debug)]
 pub struct DrivenForm {
     options: DrivenOptions,
+    /// That of the search for the periodic motion.
+    work: f64,
     pub(super) motion: Arc<PeriodicMotion>,
     /// From the new variables to the old ones.
     pub(super) transform: LieTransform<Periodic>,
@@ -55,7 +57,7 @@ impl DrivenForm {
     ///
     /// # Errors
     /// - no periodic motion: [`Error::NoPeriodicMotion`]; no frame: [`Error::MultiplierUnsupported`]; a divisor below the smallest: [`Error::SmallDivisor`];
-    /// - more harmonics of a phase than [`DrivenOptions::harmonics`]: [`Error::GridTooFine`]; more than 20,000 times of several phases: [`Error::GridTooLarge`];
+    /// - more harmonics of a phase than [`DrivenOptions::harmonics`]: [`Error::GridTooFine`]; more than 20,000 times of several phases: [`Error::GridTooLarge`]; more work than [`DrivenOptions::work`]: [`Error::DrivenWorkTooLarge`];
     /// - a phase that is too slow beside the frequencies: [`Error::PhaseTooSlow`]; coefficients of another period: [`Error::NotPeriodic`]; a callback that returns `Break`: [`Error::Interrupted`].
     pub fn new(
         system: &dyn DrivenHamiltonian,
@@ -63,8 +65,8 @@ impl DrivenForm {
         options: DrivenOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
-        let motion = settled(system, rates, options, progress)?;
-        Self::about(system, Arc::new(motion), options, progress)
+        let (motion, work) = settled(system, rates, options, progress)?;
+        Self::about(system, (Arc::new(motion), work), options, progress)
     }
 
     /// The normal form of another order about the same periodic motion of the same system.
@@ -77,12 +79,13 @@ impl DrivenForm {
         order: usize,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
-        Self::about(system, Arc::clone(&self.motion), DrivenOptions { order, ..self.options }, progress)
+        let known = (Arc::clone(&self.motion), self.work);
+        Self::about(system, known, DrivenOptions { order, ..self.options }, progress)
     }
 
     fn about(
         system: &dyn DrivenHamiltonian,
-        motion: Arc<PeriodicMotion>,
+        (motion, work): (Arc<PeriodicMotion>, f64),
         options: DrivenOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
@@ -117,13 +120,19 @@ impl DrivenForm {
             images.push((slot, image));
         }
         let frequencies = frequencies(&hamiltonian, &motion.modes)?;
-        Ok(Self { images: Images::new(&images, pairs), options, motion, transform, hamiltonian, frequencies })
+        Ok(Self { images: Images::new(&images, pairs), options, work, motion, transform, hamiltonian, frequencies })
     }
 
     /// The order.
     #[must_use]
     pub fn order(&self) -> usize {
         self.transform.order()
+    }
+
+    /// The work of the search for the periodic motion, in multiplications of two floats: the same for every order.
+    #[must_use]
+    pub fn work(&self) -> f64 {
+        self.work
     }
 
     /// The times of the driven phases.

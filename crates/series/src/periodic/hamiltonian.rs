@@ -28,6 +28,11 @@ pub trait DrivenHamiltonian: Sync {
         degree: u32,
     ) -> Result<Polynomial<Periodic>, Error>;
 
+    /// The work of H to degree 2 at one time of a grid, in multiplications of two floats. The search for a periodic motion counts with it. The default is that of some terms.
+    fn work(&self) -> f64 {
+        4000.0
+    }
+
     /// The largest difference between a coefficient and its interpolation, at phases between the times of a grid, relative to this coefficient. A harmonic beyond the grid passes for
     /// a lower one at its times. The default is 0: no test, for coefficients with all harmonics up to the highest, as for an ellipse, whose last harmonics show the error.
     ///

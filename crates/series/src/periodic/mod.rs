@@ -38,4 +38,4 @@ pub use raw::RawPeriodic;
 pub use row::Periodic;
 pub use search::DrivenOptions;
 pub use state::FormAtPhases;
-pub use work::Going;
+pub use work::{Going, MOST_WORK};

@@ -84,7 +84,7 @@ impl PeriodicMotion {
         let (mut before, mut frameless, mut response) = (f64::INFINITY, None, None);
         let mut most = without_frame(&grid, origin.len());
         for number in 1..=STEPS {
-            going(of_step(&grid, origin.len()))?;
+            going(of_step(system, &grid))?;
             let (slopes, second) = quadratic(system, &grid, &origin)?;
             let mut left = turned(&slopes);
             for (left, x) in left.iter_mut().zip(&origin) {

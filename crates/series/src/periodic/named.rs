@@ -18,6 +18,7 @@ use super::form::DrivenForm;
 use super::hamiltonian::{DrivenHamiltonian, SampledHamiltonian, terms_at};
 use super::row::Periodic;
 use super::search::DrivenOptions;
+use super::work::MOST_WORK;
 use crate::birkhoff::actions::action_texts;
 use crate::birkhoff::json::reals;
 use crate::birkhoff::phases::cosines;
@@ -154,7 +155,7 @@ impl DrivenNormalForm {
         check_driven(phases, space)?;
         let (rates, starts): (Vec<f64>, Vec<f64>) = phases.iter().copied().unzip();
         let harmonics = HARMONICS[usize::from(rates.len() > 1)];
-        let options = DrivenOptions { order, tolerance: TAIL, harmonics, smallest_divisor };
+        let options = DrivenOptions { order, tolerance: TAIL, harmonics, smallest_divisor, work: MOST_WORK };
         let form = DrivenForm::new(system, &rates, options, progress)?;
         let variables: Vec<_> = (0..2 * system.pairs()).map(Polynomial::variable).collect::<Result<_, _>>()?;
         let rows = system.expanded(form.grid(), &variables, MAX_EXPONENT)?;

@@ -7,7 +7,7 @@ use super::grid::Grid;
 use super::hamiltonian::DrivenHamiltonian;
 use super::motion::{Begin, PeriodicMotion, response};
 use super::orbit::orbit;
-use super::work::{Going, MOST, ends, of_step, too_large};
+use super::work::{Going, ends, of_step, too_large};
 use crate::error::Error;
 use crate::triangle::{Progress, stop};
 
@@ -33,16 +33,18 @@ pub struct DrivenOptions {
     pub harmonics: usize,
     /// A divisor below this, relative to the largest frequency, is refused.
     pub smallest_divisor: f64,
+    /// Most work of the search for the periodic motion, in multiplications of two floats: [`MOST_WORK`](super::MOST_WORK), or more where somebody asks for it.
+    pub work: f64,
 }
 
 /// The periodic motion on a grid that is fine enough: it holds the coefficients, and the last harmonics are small. A grid that is too coarse can have no solution; after
-/// `FAILURES` of them there is none.
+/// `FAILURES` of them there is none. With the work of the search.
 pub(super) fn settled(
     system: &dyn DrivenHamiltonian,
     rates: &[f64],
-    DrivenOptions { order, tolerance, harmonics, .. }: DrivenOptions,
+    DrivenOptions { order, tolerance, harmonics, work: most, .. }: DrivenOptions,
     progress: &mut Progress<'_>,
-) -> Result<PeriodicMotion, Error> {
+) -> Result<(PeriodicMotion, f64), Error> {
     let mut halves = first(system, rates.len(), harmonics);
     let (mut known, mut failures, mut spent): (Option<Begin>, _, _) = (None, 0, 0.0);
     loop {
@@ -53,9 +55,9 @@ pub(super) fn settled(
         }
         let mut going = |work: f64| {
             spent += work;
-            if spent > MOST { Err(too_large(&grid)) } else { stop(progress(0, order), 0, order) }
+            if spent > most { Err(too_large(&grid, most)) } else { stop(progress(0, order), 0, order) }
         };
-        going(of_step(&grid, 2 * system.pairs()))?;
+        going(of_step(system, &grid))?;
         let between = system.between_times(&grid)?;
         let resolved = between <= BETWEEN * tolerance;
         let mut found = resolved.then(|| on_grid(system, &grid, known.as_ref(), &mut going));
@@ -71,7 +73,7 @@ pub(super) fn settled(
         if let Some(found) = &found
             && (!coarse.contains(&true) || is_last || rates.is_empty())
         {
-            return found.clone();
+            return found.clone().map(|motion| (motion, spent));
         }
         if halves.iter().zip(&coarse).any(|(&half, &coarse)| coarse && half == harmonics) {
             let rest = tails.iter().copied().fold(0.0, f64::max);

@@ -1,13 +1,14 @@
 //! The work of a periodic motion and its frame, counted before it is done: multiplications of two floats, and what takes as long.
 //!
-//! A second of one core does about 1.2e9 of them, so that [`MOST`] takes at most 2 s. The constants are CPU times of single steps, on grids of 9 to 9,409 times, over the time of a
+//! A second of one core does about 1.2e9 of them, so that [`MOST_WORK`] takes at most 2 s. The constants are CPU times of single steps, on grids of 9 to 9,409 times, over the time of a
 //! multiplication in the steps of two phases: 1.0e9 to 1.6e9 a second there, 1e9 to 4e9 with one phase. The count is the same on every machine.
 
 use super::grid::Grid;
+use super::hamiltonian::DrivenHamiltonian;
 use crate::error::Error;
 
-/// Most work of a periodic motion and its frame on all grids.
-pub(super) const MOST: f64 = 2e9;
+/// Most work of a solution that nobody asks for: of a periodic motion and its frame on all grids, and of what follows.
+pub const MOST_WORK: f64 = 2e9;
 
 /// Is told the work of the next step, and returns the error that ends the iteration.
 pub type Going<'a> = dyn FnMut(f64) -> Result<(), Error> + 'a;
@@ -36,22 +37,19 @@ const PRODUCTS: f64 = 12.0;
 const FRAME: f64 = 1e5;
 const SMALL_PRODUCT: f64 = 20.0;
 
-/// A Newton step towards a periodic motion of n variables without its frame: the Hamiltonian at the times of a grid.
-pub(super) fn of_step(grid: &Grid, n: usize) -> f64 {
-    n as f64 * 2.0 * filter(grid) + HAMILTONIAN * grid.times() as f64
+/// A Newton step towards a periodic motion without its frame: the Hamiltonian at the times of a grid.
+pub(super) fn of_step(system: &dyn DrivenHamiltonian, grid: &Grid) -> f64 {
+    (4 * system.pairs()) as f64 * filter(grid) + system.work() * grid.times() as f64
 }
-
-/// A Hamiltonian of some terms at one time.
-const HAMILTONIAN: f64 = 4000.0;
 
 /// The work of a solution at all times together: the elimination of a linear system.
 pub(super) fn of_all_times(rows: usize) -> f64 {
     (rows as f64).powi(3) / 3.0
 }
 
-/// The error of a grid whose next step is beyond the rest of the work.
-pub(super) fn too_large(grid: &Grid) -> Error {
-    Error::DrivenWorkTooLarge { times: grid.times(), work: MOST }
+/// The error of a grid whose next step is beyond the most work.
+pub(super) fn too_large(grid: &Grid, most: f64) -> Error {
+    Error::DrivenWorkTooLarge { times: grid.times(), work: most }
 }
 
 /// Whether an error of `going` ends the search.

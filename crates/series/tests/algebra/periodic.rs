@@ -3,13 +3,15 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use andoyer_series::birkhoff::{Mode, PhaseSpace, normalize};
-use andoyer_series::periodic::{DrivenForm, DrivenHamiltonian, DrivenOptions, Grid, SampledHamiltonian, terms_at};
+use andoyer_series::periodic::{
+    DrivenForm, DrivenHamiltonian, DrivenOptions, Grid, MOST_WORK, SampledHamiltonian, terms_at,
+};
 use andoyer_series::progress::quiet;
 use andoyer_series::{Error, Monomial, Polynomial};
 use num_complex::Complex;
 
 fn options(order: usize) -> DrivenOptions {
-    DrivenOptions { order, tolerance: 1e-12, harmonics: 252, smallest_divisor: 1e-9 }
+    DrivenOptions { order, tolerance: 1e-12, harmonics: 252, smallest_divisor: 1e-9, work: MOST_WORK }
 }
 
 /// A form from text with the phases M, N, as many as there are rates.
