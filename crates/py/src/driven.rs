@@ -149,12 +149,14 @@ pub(crate) struct DrivenPhases {
     samples: Option<Py<PyAny>>,
     /// Whether they are a [`Driven`].
     sampled: bool,
+    /// A state near the periodic motion at the phase 0.
+    pub(crate) start: Option<Vec<f64>>,
 }
 
 impl DrivenPhases {
     /// Those of a dict or of a [`Driven`], and whether a rate is a float.
     pub(crate) fn of(driven: Option<&Bound<'_, PyAny>>) -> PyResult<(Self, bool)> {
-        let mut given = Self { names: Vec::new(), phases: Vec::new(), samples: None, sampled: false };
+        let mut given = Self { names: Vec::new(), phases: Vec::new(), samples: None, sampled: false, start: None };
         let Some(driven) = driven else { return Ok((given, false)) };
         if let Ok(driven) = driven.cast::<Driven>() {
             let Driven { rates, samples, names } = driven.get();
@@ -162,7 +164,7 @@ impl DrivenPhases {
             let exact = rates.iter().filter_map(|&rate| BigRational::from_float(rate));
             let phases = exact.map(|rate| (rate, 0.0)).collect();
             let samples = samples.as_ref().map(|samples| samples.clone_ref(driven.py()));
-            return Ok((Self { names: names.clone(), phases, samples, sampled: true }, true));
+            return Ok((Self { names: names.clone(), phases, samples, sampled: true, start: None }, true));
         }
         let Ok(dict) = driven.cast::<PyDict>() else { return Err(wrong(driven)) };
         let mut any_float = false;
@@ -220,9 +222,8 @@ pub(crate) fn normalized(
     hamiltonian: &Bound<'_, PyAny>,
     order: usize,
     space: &PhaseSpace,
-    DrivenPhases { names, phases, samples, .. }: DrivenPhases,
+    DrivenPhases { names, phases, samples, start, .. }: DrivenPhases,
     smallest_divisor: f64,
-    start: Option<Vec<f64>>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<DrivenNormalForm> {
     let phases: Vec<(f64, f64)> = phases.iter().map(|(rate, start)| (rate.to_float(), *start)).collect();

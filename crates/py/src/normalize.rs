@@ -124,11 +124,11 @@ pub(crate) fn normalize(
         ("exact", exact.is_some()),
     ];
     let in_orders = in_orders.into_iter().find(|(_, given)| *given).map(|(name, _)| name);
-    let (given, driven_float) = DrivenPhases::of(driven)?;
+    let (mut given, driven_float) = DrivenPhases::of(driven)?;
     if given.is_about_the_periodic_motion(in_orders)? {
         let order = self::order("order", order, 0, MAX_DRIVEN_ORDER)?;
-        let start = start.map(|start| numbers_of("start", start)).transpose()?;
-        let form = crate::driven::normalized(py, hamiltonian, order, &space, given, smallest_divisor, start, progress)?;
+        given.start = start.map(|start| numbers_of("start", start)).transpose()?;
+        let form = crate::driven::normalized(py, hamiltonian, order, &space, given, smallest_divisor, progress)?;
         return form.into_py_any(py);
     }
     if start.is_some() {

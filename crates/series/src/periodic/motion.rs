@@ -80,57 +80,13 @@ impl PeriodicMotion {
         begin: Option<&Begin>,
         going: &mut Going<'_>,
     ) -> Result<Self, Error> {
-        let (mut origin, mut kept) = begun(&grid, 2 * system.pairs(), begin);
-        let (mut before, mut frameless, mut response) = (f64::INFINITY, None, None);
-        let mut most = without_frame(&grid, origin.len());
-        for number in 1..=STEPS {
-            going(of_step(system, &grid))?;
-            let (slopes, second) = quadratic(system, &grid, &origin)?;
-            let mut left = turned(&slopes);
-            for (left, x) in left.iter_mut().zip(&origin) {
-                *left -= &grid.derivative(x);
+        let mut iteration = Iteration::new(system, grid, begin);
+        for _ in 0..STEPS {
+            if iteration.step(going)? {
+                return iteration.motion(begin, going);
             }
-            if frameless.is_none() {
-                let mut told = |work: f64| {
-                    most = if number == 1 { most.max(FARTHER * work) } else { most };
-                    within(most, work, (before, number), going)
-                };
-                match frame(&grid, &second, kept.take(), &mut told) {
-                    Ok(found) => kept = Some(found),
-                    Err(error) if ends(&error) => return Err(error),
-                    // That of a step is not that of the periodic motion.
-                    Err(error) => frameless = Some(error),
-                }
-            }
-            let step = match &kept {
-                Some(frame) => step_in_frame(&grid, frame, &left),
-                None => step_at_all_times(&grid, &second, &left, going)?
-                    .ok_or_else(|| unsolved(frameless.clone(), &left, &second, (&origin, number)))?,
-            };
-            let size = size(&step);
-            if !size.is_finite() {
-                return Err(unsolved(None, &left, &second, (&origin, number)));
-            }
-            response.get_or_insert_with(|| step.clone());
-            origin.iter_mut().zip(&step).for_each(|(x, step)| *x += step);
-            let scale = self::size(&origin).max(1.0);
-            let slow = size > before * SLOWEST && size < SMALL * scale;
-            if size <= REACHED * scale || slow {
-                let (slopes, second) = quadratic(system, &grid, &origin)?;
-                let mut told = |work: f64| within(most, work, (size, number), going);
-                let (change, modes) = frame(&grid, &second, kept, &mut told)?;
-                let mut tails = vec![0.0; grid.phases()];
-                add_tails(&mut tails, &grid, origin.iter().chain(change.iter().flatten()), 1.0);
-                add_tails(&mut tails, &grid, slopes.iter().chain(second.iter().flatten()), fastest(&modes));
-                let is_opposite = match begin {
-                    Some(begin) => begin.is_opposite,
-                    None => response.is_some_and(|response| alike(&origin, &response) < 0.0),
-                };
-                return Ok(Self { grid, origin, change, modes, tails, is_opposite });
-            }
-            before = size;
         }
-        Err(Error::NoPeriodicMotion { miss: before, steps: STEPS })
+        Err(Error::NoPeriodicMotion { miss: iteration.size, steps: STEPS })
     }
 
     /// This motion as that to begin with, and its frame if the grid holds it: turns between the times of a coarse grid are counted wrongly.
@@ -162,6 +118,95 @@ impl PeriodicMotion {
             form(&-products.fold(Periodic::zero(), |sum, product| sum + product), row)
         };
         symplectic_inverse(&self.change).iter().map(deviation).collect()
+    }
+}
+
+/// Newton's iteration for a periodic motion on a grid.
+struct Iteration<'a> {
+    system: &'a dyn DrivenHamiltonian,
+    grid: Grid,
+    origin: Vec<Periodic>,
+    /// The frame about the curve before the last step, or why there is none.
+    kept: Option<Frame>,
+    frameless: Option<Error>,
+    /// The first step.
+    response: Option<Vec<Periodic>>,
+    /// The number of steps and the size of the last one.
+    number: usize,
+    size: f64,
+    /// The most work towards a frame.
+    most: f64,
+}
+
+impl<'a> Iteration<'a> {
+    fn new(system: &'a dyn DrivenHamiltonian, grid: Grid, begin: Option<&Begin>) -> Self {
+        let (origin, kept) = begun(&grid, 2 * system.pairs(), begin);
+        let most = without_frame(&grid, origin.len());
+        Self { system, grid, origin, kept, frameless: None, response: None, number: 0, size: f64::INFINITY, most }
+    }
+
+    /// A Newton step, and whether it is the last one.
+    fn step(&mut self, going: &mut Going<'_>) -> Result<bool, Error> {
+        self.number += 1;
+        going(of_step(self.system, &self.grid))?;
+        let (slopes, second) = quadratic(self.system, &self.grid, &self.origin)?;
+        let mut left = turned(&slopes);
+        for (left, x) in left.iter_mut().zip(&self.origin) {
+            *left -= &self.grid.derivative(x);
+        }
+        if self.frameless.is_none() {
+            match self.frame(&second, going) {
+                Ok(found) => self.kept = Some(found),
+                Err(error) if ends(&error) => return Err(error),
+                // That of a step is not that of the periodic motion.
+                Err(error) => self.frameless = Some(error),
+            }
+        }
+        let unsolved = |frameless| unsolved(frameless, &left, &second, (&self.origin, self.number));
+        let step = match &self.kept {
+            Some(frame) => step_in_frame(&self.grid, frame, &left),
+            None => {
+                step_at_all_times(&self.grid, &second, &left, going)?.ok_or_else(|| unsolved(self.frameless.clone()))?
+            }
+        };
+        let size = size(&step);
+        if !size.is_finite() {
+            return Err(unsolved(None));
+        }
+        self.origin.iter_mut().zip(&step).for_each(|(x, step)| *x += step);
+        self.response.get_or_insert(step);
+        let scale = self::size(&self.origin).max(1.0);
+        let slow = size > self.size * SLOWEST && size < SMALL * scale;
+        self.size = size;
+        Ok(size <= REACHED * scale || slow)
+    }
+
+    /// The frame about the curve, from that before the last step. Far from the equilibrium the rates of S can be so large that the matrix of solutions takes all the work of the search:
+    /// there is no motion that a grid of these times holds.
+    fn frame(&mut self, second: &Matrix<Periodic>, going: &mut Going<'_>) -> Result<Frame, Error> {
+        let mut told = |work: f64| {
+            if self.number == 1 {
+                self.most = self.most.max(FARTHER * work);
+            }
+            let far = Error::NoPeriodicMotion { miss: self.size, steps: self.number };
+            if work > self.most { Err(far) } else { going(work) }
+        };
+        frame(&self.grid, second, self.kept.take(), &mut told)
+    }
+
+    /// The curve after the last step and its frame.
+    fn motion(mut self, begin: Option<&Begin>, going: &mut Going<'_>) -> Result<PeriodicMotion, Error> {
+        let (slopes, second) = quadratic(self.system, &self.grid, &self.origin)?;
+        let (change, modes) = self.frame(&second, going)?;
+        let Self { grid, origin, response, .. } = self;
+        let mut tails = vec![0.0; grid.phases()];
+        add_tails(&mut tails, &grid, origin.iter().chain(change.iter().flatten()), 1.0);
+        add_tails(&mut tails, &grid, slopes.iter().chain(second.iter().flatten()), fastest(&modes));
+        let is_opposite = match begin {
+            Some(begin) => begin.is_opposite,
+            None => response.is_some_and(|response| alike(&origin, &response) < 0.0),
+        };
+        Ok(PeriodicMotion { grid, origin, change, modes, tails, is_opposite })
     }
 }
 
@@ -227,12 +272,6 @@ fn step_in_frame(grid: &Grid, (change, modes): &Frame, left: &[Periodic]) -> Vec
 fn without_frame(grid: &Grid, variables: usize) -> f64 {
     let rows = variables * grid.times();
     if rows > MOST_ROWS { f64::INFINITY } else { ELIMINATIONS * of_all_times(rows) }
-}
-
-/// `going` without more than `most` work at once. Far from the equilibrium the rates of S can be so large that the matrix of solutions takes all the work of the search: there is no motion
-/// that a grid of these times holds.
-fn within(most: f64, work: f64, (miss, steps): (f64, usize), going: &mut Going<'_>) -> Result<(), Error> {
-    if work > most { Err(Error::NoPeriodicMotion { miss, steps }) } else { going(work) }
 }
 
 /// The Newton step without a frame, by one linear system for all times; none beyond [`MOST_ROWS`] and where the system is singular.

@@ -156,7 +156,8 @@ fn growth_beyond_floats_is_named() {
 }
 
 /// sin x as a polynomial whose first neglected term is 2e-8 at x = 1.94.
-const PENDULUM: &str = "p^2/2 + x^2/2 - x^4/24 + x^6/720 - x^8/40320 + x^10/3628800 - x^12/479001600 + x^14/87178291200 - 0.1*x*cos(M)";
+const PENDULUM: &str =
+    "p^2/2 + x^2/2 - x^4/24 + x^6/720 - x^8/40320 + x^10/3628800 - x^12/479001600 + x^14/87178291200 - 0.1*x*cos(M)";
 
 /// How far the equation of the pendulum misses a state after a period.
 fn missed(rate: f64, start: [f64; 2]) -> f64 {
