@@ -6,6 +6,7 @@ import json
 import math
 import pickle
 import subprocess
+import warnings
 
 import numpy as np
 import pytest
@@ -191,6 +192,35 @@ def test_bad_input_names_its_argument():
     with pytest.raises(andoyer.InputError, match="state"):
         form.trajectory([0.0], [1.0])
     assert repr(form) == f"<DrivenNormalForm of order 2 with M, {form.times} times>"
+
+
+PENDULUM = "p^2/2 + x^2/2 - x^4/24 + x^6/720 - x^8/40320 + x^10/3628800 - 0.1*x*cos(M)"
+
+
+def test_start_chooses_the_periodic_motion_and_one_out_of_phase_is_named():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        near, far = (normalize(PENDULUM, 2, PAIR, driven={"M": 0.8}, start=start) for start in (None, [-1.9, 0.0]))
+    with pytest.warns(UserWarning, match="out of phase with the response to a weak drive"):
+        beyond = normalize(PENDULUM, 2, PAIR, driven={"M": 0.9})
+    for rate, form, side in ((0.8, near, 1), (0.8, far, -1), (0.9, beyond, -1)):
+
+        def rates(t, z, rate=rate):
+            x = z[0]
+            return [z[1], -x + x**3 / 6 - x**5 / 120 + x**7 / 5040 - x**9 / 362880 + 0.1 * math.cos(rate * t)]
+
+        state = form.periodic(0.0)
+        assert side * state[0] > 0.2
+        assert integrated(rates, state, [0.0, 2 * math.pi / rate])[-1] == pytest.approx(state, abs=1e-9)
+
+
+def test_start_that_is_no_state_of_one_phase_is_refused():
+    text = "(p^2 + x^2)/2 - 0.1*x*cos(M)"
+    for start, driven in (([1.0], {"M": 0.4}), ([math.nan, 0.0], {"M": 0.4}), ([0.1, 0.0], {"M": 0.4, "N": 0.3}), ([0.1, 0.0], None)):
+        with pytest.raises(andoyer.InputError, match="start"):
+            normalize(text if driven else "(p^2 + x^2)/2", 2, PAIR, driven=driven, start=start)
+    with pytest.raises(TypeError, match="start"):
+        normalize(text, 2, PAIR, driven={"M": 0.4}, start="near")
 
 
 def test_exponent_of_mathieu_is_that_of_hill_s_equation_whatever_the_drive():

@@ -91,19 +91,8 @@ fn refined(
     for _ in 0..FRAMES {
         going(of_frame(grid, second.len()))?;
         change = product(&change, &correction(&change));
-        let mut rates = product(&moved, &change);
-        for (row, old) in rates.iter_mut().zip(&change) {
-            row.iter_mut().zip(old).for_each(|(entry, old)| *entry -= &grid.derivative(old));
-        }
-        let rates = product(&symplectic_inverse(&change), &rates);
-        for (number, mode) in modes.iter_mut().enumerate() {
-            let [u, momentum] = [2 * number, 2 * number + 1].map(|slot| rates[slot][slot].mean());
-            let half = (momentum - u) / 2.0;
-            match mode {
-                Mode::Elliptic { frequency, .. } => *frequency = half.im,
-                Mode::Hyperbolic { rate } | Mode::Complex { rate, .. } => *rate = -half.re,
-            }
-        }
+        let rates = rates(grid, &moved, &change);
+        measure(&mut modes, &rates);
         let eigenvalues: Vec<_> = modes.iter().flat_map(eigenvalues).collect();
         let noise = NOISE * fastest(&modes);
         let step: Matrix<Periodic> = rates
@@ -133,6 +122,27 @@ fn refined(
         before = size;
     }
     Ok(None)
+}
+
+/// P⁻¹ (J S P − n∂P).
+fn rates(grid: &Grid, moved: &Matrix<Periodic>, change: &Matrix<Periodic>) -> Matrix<Periodic> {
+    let mut rates = product(moved, change);
+    for (row, old) in rates.iter_mut().zip(change) {
+        row.iter_mut().zip(old).for_each(|(entry, old)| *entry -= &grid.derivative(old));
+    }
+    product(&symplectic_inverse(change), &rates)
+}
+
+/// Takes the frequencies and rates of the modes from the means on the diagonal.
+fn measure(modes: &mut [Mode<f64>], rates: &Matrix<Periodic>) {
+    for (number, mode) in modes.iter_mut().enumerate() {
+        let [u, momentum] = [2 * number, 2 * number + 1].map(|slot| rates[slot][slot].mean());
+        let half = (momentum - u) / 2.0;
+        match mode {
+            Mode::Elliptic { frequency, .. } => *frequency = half.im,
+            Mode::Hyperbolic { rate } | Mode::Complex { rate, .. } => *rate = -half.re,
+        }
+    }
 }
 
 /// The rounding error of P⁻¹ P: that of one product in each pair, in any units of the variables. It is large where solutions grow and fall again within a period.

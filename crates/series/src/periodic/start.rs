@@ -96,27 +96,27 @@ pub(super) fn start_of_one(grid: &Grid, second: &Matrix<Periodic>, going: &mut G
     if !from_tangents(&mut columns, &mut modes, period) {
         return Err(unsupported("are negative: the motion is unstable, and no real frame of this period exists"));
     }
-    // Φ(M) c e^{−λ t} is periodic.
     let eigenvalues: Vec<_> = modes.iter().flat_map(eigenvalues).collect();
-    let carried = |column: &Vec<Complex<f64>>, lambda: Complex<f64>| -> Vec<Periodic> {
-        let values = |row: usize| -> Vec<Complex<f64>> {
-            (0..grid.times())
-                .map(|at| {
-                    let time = at as f64 * period / grid.times() as f64;
-                    let sum: Complex<f64> = (0..n).map(|k| column[k] * course[at][(row, k)]).sum();
-                    sum * (-lambda * time).exp()
-                })
-                .collect()
-        };
-        (0..n).map(|row| Periodic::of(&values(row))).collect()
-    };
-    let columns = columns.iter().zip(&eigenvalues).map(|(column, &lambda)| carried(column, lambda)).collect();
+    let along = |(column, &lambda): (&Vec<_>, &Complex<f64>)| carried(grid, &course, column, lambda);
+    let columns = columns.iter().zip(&eigenvalues).map(along).collect();
     let planes = undriven(second).map_or_else(|_| unit(n), |mean| mean.matrix);
     let (columns, modes) = continued(grid, columns, modes, &planes);
     if nudged && modes.iter().any(|mode| mode.frequency().norm() * period.abs() < 2.0 * NUDGE) {
         return Err(unsupported(WITHOUT_TURN));
     }
     Ok((transposed(&columns), modes))
+}
+
+/// Φ(M) c e^{−λ t}, which is periodic, for a column c of the exponent λ.
+fn carried(grid: &Grid, course: &[DMatrix<f64>], column: &[Complex<f64>], lambda: Complex<f64>) -> Vec<Periodic> {
+    let (times, period) = (grid.times(), 2.0 * PI / grid.rates()[0]);
+    let value = |row: usize, at: usize| {
+        let time = at as f64 * period / times as f64;
+        let sum: Complex<f64> = column.iter().enumerate().map(|(k, c)| c * course[at][(row, k)]).sum();
+        sum * (-lambda * time).exp()
+    };
+    let entry = |row: usize| Periodic::of(&(0..times).map(|at| value(row, at)).collect::<Vec<_>>());
+    (0..column.len()).map(entry).collect()
 }
 
 /// Whether Φ has a double multiplier 1 or −1 with two directions.
