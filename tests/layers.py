@@ -1,8 +1,8 @@
-"""Check the imports between the files of each crate. No crate may have an import circle, and no module may import a name that lib.rs re-exports: it imports from the file. A module of
-crates/propagate may import only from earlier layers; lib.rs lists its modules in the order of the layers.
+"""Check the imports between the files of each crate and of the Python package. None may have an import circle, and no Rust module may import a name that lib.rs re-exports: it imports from
+the file. A module of crates/propagate may import only from earlier layers; lib.rs lists its modules in the order of the layers.
 
     python tests/layers.py               exit status 1 for a circle or an import from a later layer
-    python tests/layers.py --planted     the same check on invented crates that have one of each
+    python tests/layers.py --planted     the same check on invented crates and a package that have one of each
 
 An edge goes from the file that uses a name to the file that declares the name and, if the path names another file that re-exports it, to that file too. These are uses:
 
@@ -13,8 +13,11 @@ An edge goes from the file that uses a name to the file that declares the name a
 The check follows any number of re-exports in any file. Edges between a parent and its children count as any other: a child that uses a function of its parent, whose code calls the
 child, is a circle. What lib.rs declares and uses is in the file `lib`.
 The check does not see methods that are called on a value, and it leaves out comments and tests (files `tests`, and code below `#[cfg(test)]`).
+
+In Python each import is an edge, in functions and for types alone (`if TYPE_CHECKING`) too. `from package import module` is an edge to that module, not to the package.
 """
 
+import ast
 import re
 import sys
 import tempfile
@@ -163,6 +166,22 @@ class Crate:
         return edges
 
 
+def python_imports(source: Path) -> Imports:
+    """The modules of a Python package that each of its modules imports."""
+    modules = {".".join(file.relative_to(source.parent).with_suffix("").parts).removesuffix(".__init__"): file for file in sorted(source.rglob("*.py"))}
+    edges: Imports = {}
+    for name, file in modules.items():
+        names = set()
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                inner = {f"{node.module}.{alias.name}" for alias in node.names}
+                names |= {module if module in modules else node.module for module in inner}
+            elif isinstance(node, ast.Import):
+                names |= {alias.name for alias in node.names}
+        edges[name] = names & modules.keys() - {name}
+    return edges
+
+
 def circles(edges: Imports) -> Iterator[list[str]]:
     """Sets of files that import each other, by Tarjan's algorithm."""
     index, lowest, stack = {}, {}, []
@@ -212,11 +231,14 @@ def problems(source: Path, layered: bool) -> list[str]:
     """The problems in the imports of a crate."""
     crate = Crate(source)
     edges = crate.imports()
-    found = list(from_root(crate))
+    return list(from_root(crate)) + list(arrows(edges)) + (list(upwards(source, edges)) if layered else [])
+
+
+def arrows(edges: Imports) -> Iterator[str]:
+    """Each circle as a sentence."""
     for circle in circles(edges):
-        arrows = ", ".join(f"{name} -> {' '.join(sorted(edges[name] & set(circle)))}" for name in circle)
-        found.append(f"{len(circle)} files in a circle: {arrows}")
-    return found + (list(upwards(source, edges)) if layered else [])
+        inside = ", ".join(f"{name} -> {' '.join(sorted(edges[name] & set(circle)))}" for name in circle)
+        yield f"{len(circle)} files in a circle: {inside}"
 
 
 PLANTED = {
@@ -277,6 +299,16 @@ PLANTED = {
         True,
         ["a imports b", "a imports b::c"],
     ),
+    "a circle in Python by an import for types and one in a function": (
+        {
+            "p/__init__.py": "from p.a import A\nfrom p import c\n",
+            "p/a.py": "def f():\n    from p.b import g\n",
+            "p/b.py": "if TYPE_CHECKING:\n    from p.a import A\n",
+            "p/c.py": "import p.a\n",
+        },
+        False,
+        ["circle: p.a -> p.b, p.b -> p.a"],
+    ),
     "none": (
         {
             "lib.rs": "mod a;\nmod b;\nmod d;\npub use a::A;\n",
@@ -300,7 +332,7 @@ def planted() -> list[str]:
                 file = Path(folder) / path
                 file.parent.mkdir(parents=True, exist_ok=True)
                 file.write_text(content, encoding="utf-8")
-            found = problems(Path(folder), layered)
+            found = problems(Path(folder), layered) if "lib.rs" in files else list(arrows(python_imports(Path(folder) / "p")))
         if len(found) != len(expected) or not all(part in problem for part, problem in zip(expected, found)):
             wrong.append(f"{name}: found {found}, expected {expected}")
     return wrong
@@ -313,6 +345,7 @@ def main() -> int:
     else:
         crates = sorted(path.parent for path in ROOT.glob("crates/*/src"))
         found = [f"crates/{crate.name}: {problem}" for crate in crates for problem in problems(crate / "src", crate.name in LAYERED)]
+        found += [f"crates/py/python: {problem}" for problem in arrows(python_imports(ROOT / "crates/py/python/andoyer"))]
         good = "imports: no circle, none upwards, none from the root of a crate"
     print("\n".join(found) or good)
     return bool(found)

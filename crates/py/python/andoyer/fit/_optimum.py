@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from andoyer._core import Scene
+from andoyer._core import Motion, Scene
 from andoyer.mean import Periods
 
 HALF_TURN = 0.5
@@ -27,7 +27,7 @@ class Optimum:
     @property
     def periods(self) -> Periods:
         """The mean periods (P_φ, P_ψ) in the convention "extremal-axis" of `Motion.periods`."""
-        return periods_of(self.scene)
+        return free_motion(self.scene).periods["extremal-axis"]
 
     def __repr__(self) -> str:
         precession, rotation = self.periods
@@ -49,9 +49,9 @@ class Alias:
         return f"Alias(P_φ={self.periods.precession:.6g}, P_ψ={self.periods.rotation:.6g}, Δχ²={self.delta_chi_square:.4g})"
 
 
-def periods_of(scene: Scene) -> Periods:
-    """The mean periods of the free motion from the state of a scene, in the convention "extremal-axis"."""
-    return Scene(scene.body, scene.attitude, scene.angular_velocity).solve().periods["extremal-axis"]
+def free_motion(scene: Scene) -> Motion:
+    """The motion without torques from the state of a scene, with the epoch 0."""
+    return Scene(scene.body, scene.attitude, scene.angular_velocity).solve()
 
 
 def aliases(optima: Sequence[Optimum], duration: float) -> list[Alias]:

@@ -12,26 +12,24 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from andoyer.fit._result import Fit
-
 WIDTH = 2.4
 """Half the width of a panel, in standard deviations."""
 POINTS = 181
 
 
-def corner(fit: "Fit", figure: "Figure | None") -> "Figure":
+def corner(parameters: tuple[str, ...], covariance: Array, figure: "Figure | None") -> "Figure":
     """Ellipses of one and two standard deviations of every pair of parameters, and the density of each alone."""
     plt: Any = extra("matplotlib.pyplot", "andoyer.fit")
-    count = len(fit.parameters)
-    deviations = np.sqrt(np.diag(fit.covariance))
+    count = len(parameters)
+    deviations = np.sqrt(np.diag(covariance))
     with plt.rc_context(STYLE):
         figure = plt.figure(figsize=(1.1 * count + 1, 1.1 * count + 1)) if figure is None else figure
         panels = figure.subplots(count, count, squeeze=False)
         for row in range(count):
             for column in range(count):
-                _panel(panels[row, column], fit.covariance, deviations, (row, column))
-            panels[row, 0].set_ylabel(fit.parameters[row])
-            panels[-1, row].set_xlabel(f"{fit.parameters[row]}\n± {deviations[row]:.2g}")
+                _panel(panels[row, column], covariance, deviations, (row, column))
+            panels[row, 0].set_ylabel(parameters[row])
+            panels[-1, row].set_xlabel(f"{parameters[row]}\n± {deviations[row]:.2g}")
     return figure
 
 
@@ -55,19 +53,19 @@ def _panel(axes: "Axes", covariance: Array, deviations: Array, place: tuple[int,
         axes.set_ylim(-WIDTH, WIDTH)
 
 
-def residuals(fit: "Fit", axes: "Axes | None") -> "Axes":
+def residuals(times: Any, values: Array, axes: "Axes | None") -> "Axes":
     """Residuals against time: three components of a rotation vector in degrees, or brightnesses."""
     plt: Any = extra("matplotlib.pyplot", "andoyer.fit")
     with plt.rc_context(STYLE):
         axes = plt.subplots(figsize=(8, 3.5), layout="constrained")[1] if axes is None else axes
-    times = getattr(fit.times, "datetime64", fit.times)
-    if fit.residuals.ndim == 2:
-        for component, color, marker, name in zip(np.degrees(fit.residuals.T), (BLUE, VERMILION, GREEN), "os^", "123"):
+    times = getattr(times, "datetime64", times)
+    if values.ndim == 2:
+        for component, color, marker, name in zip(np.degrees(values.T), (BLUE, VERMILION, GREEN), "os^", "123"):
             axes.plot(times, component, marker, color=color, markersize=4, label=f"about axis {name}")
         axes.set_ylabel("measured − model [°]")
         axes.legend(frameon=False, ncols=3)
     else:
-        axes.plot(times, fit.residuals, "o", color=BLUE, markersize=3)
+        axes.plot(times, values, "o", color=BLUE, markersize=3)
         axes.set_ylabel("measured − model")
     axes.axhline(0, color="0.6", linewidth=0.8)
     axes.set_xlabel("time")

@@ -15,9 +15,9 @@ from andoyer.fit._degeneracy import sentence, undetermined
 from andoyer.fit._draws import Model, candidates
 from andoyer.fit._given import generator_of, whole
 from andoyer.fit._members import members
-from andoyer.fit._optimum import Alias, Optimum, aliases
+from andoyer.fit._optimum import Alias, Optimum, aliases, free_motion
 from andoyer.fit._steps import Steps
-from andoyer.fit._summary import one_line, summary
+from andoyer.fit._summary import written
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -169,10 +169,21 @@ class Fit:
         return Draws(members(self._steps, found.steps[places], threads=threads), found.chi_squares[places] - self.chi_square, size)
 
     def __repr__(self) -> str:
-        return one_line(self)
+        motion = free_motion(self.scene)
+        precession, rotation = motion.periods["extremal-axis"]
+        of_motion = f"{motion.plan.mode}, P_φ={precession:.6g}, P_ψ={rotation:.6g}"
+        return f"Fit({of_motion}, reduced χ²={self.reduced_chi_square:.4g}, {len(self.parameters)} parameters, {self.residuals.size} data)"
 
     def __str__(self) -> str:
-        return summary(self)
+        lines = [
+            ("reduced χ²", f"{self.reduced_chi_square:.4g}  (χ² {self.chi_square:.6g}, {self.degrees_of_freedom} degrees of freedom)"),
+            ("mode", f"{free_motion(self.scene).plan.mode}  (state at the epoch {self.scene.epoch:g})"),
+            *written(self._steps, self.covariance, self.undetermined),
+        ]
+        if len(self.optima) > 1:
+            lines.append(("minima", f"{len(self.optima)}, the second with Δχ² {self.optima[1].chi_square - self.optima[0].chi_square:.3g}"))
+        title = f"Fit of {len(self.parameters)} parameters ({', '.join(self.parameters)}) to {self.residuals.size} data"
+        return "\n".join([title, *(f"  {name:<15} {text}" for name, text in lines), self.message])
 
     def corner(self, figure: Figure | None = None) -> Figure:
         """Draws the ellipses of one and two standard deviations of every pair of free parameters. Needs matplotlib.
@@ -184,7 +195,7 @@ class Fit:
         """
         from andoyer.fit._pictures import corner
 
-        return corner(self, figure)
+        return corner(self.parameters, self.covariance, figure)
 
     def residual_picture(self, axes: Axes | None = None) -> Axes:
         """Draws the residuals against time. Needs matplotlib.
@@ -196,7 +207,7 @@ class Fit:
         """
         from andoyer.fit._pictures import residuals
 
-        return residuals(self, axes)
+        return residuals(self.times, self.residuals, axes)
 
 
 def judged(steps: Steps, step: Array, whitened: Array) -> tuple[Array, Array, str | None]:

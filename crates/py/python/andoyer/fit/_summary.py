@@ -1,52 +1,17 @@
-"""`print(fit)`: periods, pole, phases and moments of the best state, each with its standard deviation."""
+"""Quantities of the best state for `print(fit)`: periods, pole, phases and moments, each with its standard deviation."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from andoyer._core import Error, Motion, Scene
+from andoyer._core import Error, Scene
 from andoyer._quaternions import Array
-from andoyer.fit._optimum import periods_of
+from andoyer.fit._optimum import free_motion
 from andoyer.fit._steps import Steps, root
-
-if TYPE_CHECKING:
-    from andoyer.fit._result import Fit
 
 PART = 1e-2
 """Steps of the differences, in standard deviations, or relative and in rad along what the data do not determine."""
 ANGLES = ("pole longitude", "pole latitude", "phase μ", "phase ν")
-
-
-def summary(fit: Fit) -> str:
-    """Several lines for people."""
-    scene = fit.scene
-    lines = [
-        f"Fit of {len(fit.parameters)} parameters ({', '.join(fit.parameters)}) to {fit.residuals.size} data",
-        _line("reduced χ²", f"{fit.reduced_chi_square:.4g}  (χ² {fit.chi_square:.6g}, {fit.degrees_of_freedom} degrees of freedom)"),
-        _line("mode", f"{free_motion(scene).plan.mode}  (state at the epoch {scene.epoch:g})"),
-    ]
-    lines += [_line(name, text) for name, text in _written(fit)]
-    if len(fit.optima) > 1:
-        lines.append(_line("minima", f"{len(fit.optima)}, the second with Δχ² {fit.optima[1].chi_square - fit.optima[0].chi_square:.3g}"))
-    return "\n".join([*lines, fit.message])
-
-
-def one_line(fit: Fit) -> str:
-    """One line for people who program."""
-    precession, rotation = periods_of(fit.scene)
-    of_motion = f"{free_motion(fit.scene).plan.mode}, P_φ={precession:.6g}, P_ψ={rotation:.6g}"
-    return f"Fit({of_motion}, reduced χ²={fit.reduced_chi_square:.4g}, {len(fit.parameters)} parameters, {fit.residuals.size} data)"
-
-
-def free_motion(scene: Scene) -> Motion:
-    """The motion without torques from the state of a scene."""
-    return Scene(scene.body, scene.attitude, scene.angular_velocity).solve()
-
-
-def _line(name: str, text: str) -> str:
-    return f"  {name:<15} {text}"
 
 
 def _quantities(scene: Scene, semi_axes: Array | None) -> dict[str, float]:
@@ -69,13 +34,15 @@ def _quantities(scene: Scene, semi_axes: Array | None) -> dict[str, float]:
     return values
 
 
-def _written(fit: Fit) -> list[tuple[str, str]]:
-    """Each quantity with its value and its standard deviation."""
-    steps = fit._steps
-    values = _quantities(fit.scene, fit.semi_axes)
-    deviations = _slopes(steps, root(fit.covariance, steps), list(values))
-    lost = _slopes(steps, fit.undetermined.T, list(values))
-    written = []
+def written(steps: Steps, covariance: Array, undetermined: Array) -> list[tuple[str, str]]:
+    """Each quantity of the state that the steps begin at, with its value and its standard deviation from the covariance of the free parameters.
+
+    `undetermined`: the directions of steps that the data do not determine, shape (d, k).
+    """
+    values = _quantities(steps.origin, steps.semi_axes)
+    deviations = _slopes(steps, root(covariance, steps), list(values))
+    lost = _slopes(steps, undetermined.T, list(values))
+    lines = []
     for name, value in values.items():
         deviation = float(np.linalg.norm(deviations[name]))
         unit = "°" if name in ANGLES else ""
@@ -90,8 +57,8 @@ def _written(fit: Fit) -> list[tuple[str, str]]:
             text = f"{value:.6g}{unit}  (held)"
         else:
             text = _with_deviation(value, deviation, unit)
-        written.append((name, text))
-    return written
+        lines.append((name, text))
+    return lines
 
 
 def _is_lost(name: str, deviation: float, lost: float) -> bool:
