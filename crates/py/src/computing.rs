@@ -29,7 +29,7 @@ pub(crate) fn detached<T: Send, E: Send>(
 const LOOK: Duration = Duration::from_millis(50);
 
 /// As [`detached`]. A `long` call is computed by its own thread. Meanwhile this thread checks for signals, because Python runs signal handlers only in the main
-/// thread. If a handler raises, this thread sets the stop flag of `compute`. Starting the thread takes 30 to 80 µs.
+/// thread. If a handler raises, this thread sets the stop flag of `compute`. Starting the thread takes longer than a short call.
 pub(crate) fn interruptible<T: Send, E: Send>(
     py: Python<'_>,
     long: bool,

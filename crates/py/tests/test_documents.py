@@ -1,5 +1,6 @@
-"""docs/scene.md held against the package: its example is solved, its keys, columns and names are those there are."""
+"""The pages held against the package: the example of docs/scene.md is solved, keys, columns, names and symbols are those there are, and no text has a price of its own."""
 
+import ast
 import builtins
 import re
 
@@ -136,3 +137,47 @@ def test_troubleshooting_names_every_error_of_the_crates():
     variants = [name for source in sources for name in re.findall(r"^ *#\[error\((?:.|\n)*?\)\]\n *([A-Z]\w+)", source, re.MULTILINE)]
     assert len(variants) > 90
     assert [name for name in variants if f"`{name}`" not in page] == []
+
+
+NUMBER = r"(?<![\w.^⁻])\d[\d.,]*(?:e[-−]?\d+)? "
+SHORT = re.compile(rf"{NUMBER}(?:ms|[µμ]s|ns|(?:milli|micro|nano)seconds?)\b")
+LONG = re.compile(rf"{NUMBER}(?:s|seconds?|minutes?|hours?)\b")
+COST = re.compile(r"\b(?:takes?|taken|took|costs?|cores?|threads?|processor)\b")
+# What a command writes from docs/data.
+OWNED = re.compile(r"<!-- (?:report|stress|measured)\b.*?<!-- end -->|```measured\n.*?```", re.DOTALL)
+
+
+def prices(text):
+    """Sentences that say what a computation takes: with a number of ms, µs or ns, or of s, minutes or hours beside a word of COST. A duration of nature is written in s or longer units."""
+    sentences = (" ".join(sentence.split()) for sentence in re.split(r"(?<=[.;:])\s|\n\s*\n", text))
+    return [sentence for sentence in sentences if SHORT.search(sentence) or (COST.search(sentence) and LONG.search(sentence))]
+
+
+def said(path):
+    """What a file says in words: a page without what a command writes, or the comments and docstrings of a source, with an empty line between those that are apart."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".md":
+        return OWNED.sub("", text)
+    nodes = ast.walk(ast.parse(text)) if path.suffix != ".rs" else ()
+    docstrings = [
+        node.value.value for node in nodes if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
+    ]
+    comments = (re.search(r"(?:^|\s)(?://[/!]?|# )(.*)", line) for line in text.splitlines())
+    return "\n\n".join([*docstrings, "\n".join(comment[1] if comment else "" for comment in comments)])
+
+
+def test_prices_are_those_that_were_measured(tmp_path):
+    python = REPOSITORY / "crates/py/python"
+    pages = [*REPOSITORY.glob("*.md"), *(REPOSITORY / "docs").glob("*.md"), *REPOSITORY.glob("crates/*/README.md"), REPOSITORY / "benches/README.md"]
+    files = [*pages, REPOSITORY / ".github/CONTRIBUTING.md", *REPOSITORY.glob("crates/*/src/**/*.rs"), *python.rglob("*.py"), *python.rglob("*.pyi")]
+    # The changelog has the figures of its day.
+    found = {str(file.relative_to(REPOSITORY)): prices(said(file)) for file in files if file.name != "CHANGELOG.md"}
+    assert len(found) > 400 and {name: sentences for name, sentences in found.items() if sentences} == {}
+    planted = {
+        "a.rs": ("/// One step takes\n/// 4 µs. A clock ticks every 4 s.\nfn f() {} // as long as 2 ms\n", ["One step takes 4 µs.", "as long as 2 ms"]),
+        "a.py": ('def f():\n    """Rows, which take 0.1 s."""\n    # The light time changes by 17 minutes.\n', ["Rows, which take 0.1 s."]),
+        "a.md": ("```measured\nensemble\n```\nA form takes 10 ms.\n\n<!-- report: x -->\n3 ns\n<!-- end -->\n", ["A form takes 10 ms."]),
+    }
+    for name, (text, expected) in planted.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+        assert prices(said(tmp_path / name)) == expected

@@ -1,7 +1,7 @@
 //! The trait of the coefficients of a polynomial.
 //!
 //! The ring operations are the standard operators and `num_traits::{Zero, One}`. This trait adds integers, the inverse, a literal for printing, and *long sums
-//! of products*. A reduced rational needs one gcd for each operation (6.6 µs for a multiply-add), and in a product of polynomials or a bracket thousands of
+//! of products*. A reduced rational needs one gcd for each operation, and in a product of polynomials or a bracket thousands of
 //! pairs of terms contribute to one resulting term. Therefore both factors are lifted to [`Raw`] values over one common denominator ([`Scale`]). The pairs are
 //! summed there without a gcd, and each resulting term is lowered once. Types without denominators, such as floats, a prime field or double-double, are their
 //! own raw values.

@@ -16,7 +16,7 @@ use super::kept::Kept;
 use super::on_error::OnError;
 use super::pool::MAX_THREADS;
 
-/// Members that a thread takes at least: 64 of them are some 100 µs.
+/// Members that a thread takes at least. The time of so many is long beside that of starting a task.
 pub(super) const BLOCK: usize = 64;
 
 /// Bodies with their states, at one epoch or each at its own.

@@ -16,7 +16,7 @@ use crate::simd::instruction_set::{InstructionSet, Task};
 
 /// The most steps that are kept in one direction: 600 MB.
 pub(crate) const MOST_STEPS: usize = 1 << 23;
-/// Steps between two checks of the stop flag: about 0.3 ms.
+/// Steps between two checks of the stop flag. They take less than a millisecond.
 pub(super) const AT_ONCE: usize = 64;
 /// An integration is refused if its number of steps, extrapolated from the steps so far, exceeds the largest one by this factor. After `TYPICAL` steps the factor
 /// is 1.

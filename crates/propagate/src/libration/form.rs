@@ -22,7 +22,7 @@ const HARMONICS: usize = 252;
 /// The last harmonics of the periodic motion and of its frame are at most this fraction of the tolerance, and not below the second number, which rounding reaches.
 const TAIL: [f64; 2] = [1e-4, 1e-13];
 
-/// The work of a product of terms at a time of the grid, in multiplications of two floats: 6e7 of them took 1.7 s.
+/// The work of a product of terms at a time of the grid, in multiplications of two floats.
 const PRODUCT: f64 = 33.0;
 /// A product of terms costs as much as so many more times of the grid.
 const TERM: usize = 16;

@@ -5,10 +5,9 @@
 //! ([`crate::torque_free::wobble`]). On a uniform grid one product with a table gives the sines ([`crate::simd::grid`]). Only the requested outputs are
 //! computed. All sets with a fused multiply-add give the same bits, with any number of threads.
 //!
-//! Speed: 100,000 samples of attitude and rates with seven harmonics on one core of a Zen 5 take 36 ns each with the portable kernel, 7.3 ns with AVX2 and 3.9
-//! ns with AVX-512. At uniform times they take 18, 4.8 and 2.4 ns. Storing alone takes 0.8 ns. The first version took 42, 8.0 and 4.2 ns. Plain arrays in
-//! functions with target features, vectorized by the compiler, took 31, 15 and 11.7 ns. The crate `wide` fixes its instructions at compile time, so it cannot
-//! select them at run time.
+//! Speed: benches/README.md has the time of a sample, under `evaluate`. AVX-512 is the fastest set, then AVX2, then the portable kernel. Uniform times take less
+//! than others. Plain arrays in functions with target features, vectorized by the compiler, took two to three times as long with AVX2 and AVX-512. The crate
+//! `wide` fixes its instructions at compile time, so it cannot select them at run time.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -32,7 +31,7 @@ use crate::torque_free::wobble::WobbleEvaluator;
 #[path = "tests.rs"]
 mod tests;
 
-/// Smallest number of samples for each thread. With fewer samples another thread costs more than it saves: a join takes 11 μs, this many samples 40 to 65 μs.
+/// Smallest number of samples for each thread. With fewer samples another thread costs more than it saves: a join takes about a fifth of the time of so many.
 const SAMPLES_PER_THREAD: usize = 16_384;
 
 /// The formulas that evaluate a motion.

@@ -14,7 +14,7 @@
 //! δg(t + jT) = Sʲ (δg(t) − j δT ġ(t)) + (δS g(t) for odd j)
 //! ```
 //!
-//! A step takes some microseconds. Half a turn has 16 steps or, next to the separatrix, some hundreds. A time takes about 0.5 µs.
+//! Half a turn has 16 steps or, next to the separatrix, some hundreds. A step takes longer than the derivatives at one time.
 
 use std::f64::consts::PI;
 

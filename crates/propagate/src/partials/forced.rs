@@ -13,7 +13,7 @@ use crate::motion::batch::Batch;
 use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
 
-/// Beyond so many steps the derivatives of an averaged motion are differences of solved motions: four for each column, 8 ms for nine columns over 1,000 rotations.
+/// Beyond so many steps the derivatives of an averaged motion are differences of solved motions: four for each column.
 const MOST_STEPS: f64 = 2.5e3;
 
 impl Motion {

@@ -2,7 +2,7 @@
 //!
 //! Eight lanes have the last eight columns of a row: two of the initial attitude, then those of the six parameters that change the polhode. Sixteen lanes have
 //! them for two times. A row of a matrix is then a vector, which is stored where it belongs. With a time in each lane, as attitudes and rates are computed, the
-//! matrices had to be transposed through the memory: calls with 2,000 times took 61 ns a sample instead of 40.
+//! matrices had to be transposed through the memory: calls with 2,000 times took half as long again.
 
 use super::constants::{Change, Setting};
 use super::derivatives::{Derivatives, PARAMETERS};
@@ -115,8 +115,8 @@ struct Moment<S: InstructionSet> {
 /// Quantities with a time in each lane, and the matrices of these times.
 ///
 /// The matrices of 16 times are collected here, in the nearest cache, and copied in one piece. The alternatives were not faster with 2,001 times and with
-/// 20,001 times, where the caches keep no output. Collecting more takes longer: 32, 64 and 128 times take 3, 15 and 20 ns a sample more. Copying two matrices
-/// while the next ones are computed takes 5 to 10 ns more. Writing them where they belong takes 0 to 5 ns more.
+/// 20,001 times, where the caches keep no output: collecting the matrices of 32, 64 and 128 times, copying two matrices while the next ones are computed, and
+/// writing them where they belong.
 #[repr(C, align(64))]
 pub(super) struct Block {
     /// Rᵀ R0.

@@ -11,7 +11,7 @@ use crate::torque_free::polhode::Polhode;
 use crate::torque_free::series::tables::SeriesTables;
 
 /// Calls `each` with the motions of at most as many valid scenes as the widest vectors have lanes, each to the bits of [`Scene::solve`]. The plans of free
-/// motions have no remarks. A motion has some hundreds of bytes: it is used where it was made, because a copy of it takes 10 ns.
+/// motions have no remarks. A motion has some hundreds of bytes: it is used where it was made and not copied.
 pub(crate) fn several(scenes: Vec<Result<Scene, Error>>, mut each: impl FnMut(&Result<Motion, Error>)) {
     let tables = SeriesTables::default();
     let free: Vec<&Scene> = scenes.iter().flatten().filter(|scene| is_free(scene)).collect();

@@ -19,15 +19,15 @@ use crate::foreign::{self, Calendar};
 const FEWEST_SHARED: usize = 16_384;
 /// From this size on a call of `numpy.empty` takes less time than zeros.
 const FEWEST_UNINITIALIZED: usize = 512;
-/// Number of times of a motion above which an evaluation counts as a long call; it takes 1 to 200 ms.
+/// Number of times of a motion above which an evaluation counts as a long call, which Ctrl-C can stop.
 const LONG: usize = 1 << 19;
-/// The same number for derivatives in closed form; it takes 10 to 30 ms. With 16,384 times the thread of a long call took 10 ns for each time.
+/// The same number for derivatives in closed form. With 16,384 times the thread of a long call added a quarter to the time.
 const LONG_PARTIALS: usize = 1 << 18;
-/// The same number under a gravity gradient; it takes 3 to 20 ms.
+/// The same number under a gravity gradient.
 const LONG_DISTURBED: usize = 1 << 14;
-/// Number of members of an ensemble above which solving counts as a long call; it takes 20 ms.
+/// Number of members of an ensemble above which solving counts as a long call.
 const LONG_MEMBERS: usize = 1 << 12;
-/// The same number under a gravity gradient, with 0.1 to 0.3 ms for each member.
+/// The same number under a gravity gradient.
 const LONG_DISTURBED_MEMBERS: usize = 32;
 
 /// Times: a scalar or one axis; for an ensemble also one row for each member.
@@ -124,7 +124,7 @@ impl<'py> Times<'py> {
     /// A copy of the times, and two arrays to be filled, of these shapes for each time.
     ///
     /// For many times the arrays share one block of memory. Three blocks would be returned to the system after each call, and the page faults of the next call
-    /// would take 25 ns a sample for 100,000 samples; with one block it is 1.0 ns.
+    /// would take longer than the samples; with one block they take a fraction of that.
     fn with_outputs(&self, [first, second]: [&[usize]; 2]) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
         let shapes = [self.array.shape().to_vec(), self.shape(first), self.shape(second)];
         let numbers = shapes.iter().map(|shape| shape.iter().product::<usize>()).sum::<usize>();

@@ -57,7 +57,7 @@ impl Tables {
 
     /// P_0 … P_N at this β to 32 digits (theory §4), for N = `order`, which must not exceed the order of the tables.
     ///
-    /// They are computed at the first call, in 0.1 ms at order 12 and 2 ms at 30.
+    /// They are computed at the first call, which is most of the set-up of a new body (`set-up` in benches/README.md).
     pub(crate) fn polynomials(&self, order: usize) -> Result<&[DoubleDouble], Error> {
         let precise = match self.precise.get() {
             Some(precise) => precise,

@@ -21,7 +21,7 @@ from andoyer.output.files import whole_file
 from andoyer.output.rows import COLUMNS, CONVENTION, Array, calendar_times, rows, samples_of
 
 ROWS_AT_ONCE = 2**20
-"""Rows of a group of Parquet, which takes some 0.1 s."""
+"""Rows of a group of Parquet: each takes a fraction of a second."""
 
 LINES_AT_ONCE = 10_000
 """Lines between two words on how far the writing is."""
