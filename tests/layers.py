@@ -1,7 +1,7 @@
 """Check the imports between the files of each crate and of the Python package. None may have an import circle, and no Rust module may import a name that lib.rs re-exports: it imports from
 the file. A module of crates/propagate may import only from earlier layers; lib.rs lists its modules in the order of the layers.
 
-    python tests/layers.py               exit status 1 for a circle or an import from a later layer
+    python tests/layers.py               exit status 1 for a circle, an import from a later layer or a list of imports
     python tests/layers.py --planted     the same check on invented crates and a package that have one of each
 
 An edge goes from the file that uses a name to the file that declares the name and, if the path names another file that re-exports it, to that file too. These are uses:
@@ -12,6 +12,7 @@ An edge goes from the file that uses a name to the file that declares the name a
 `mod child;` and `pub use child::Name` declare and are no edges. But if the code of the same file then uses `Name`, that is an edge to the file that declares it.
 The check follows any number of re-exports in any file. Edges between a parent and its children count as any other: a child that uses a function of its parent, whose code calls the
 child, is a circle. What lib.rs declares and uses is in the file `lib`.
+A list of imports in the comment at the head of a module is refused: nothing keeps it true.
 The check does not see methods that are called on a value, and it leaves out comments and tests (files `tests`, and code below `#[cfg(test)]`).
 
 In Python each import is an edge, in functions and for types alone (`if TYPE_CHECKING`) too. `from package import module` is an edge to that module, not to the package.
@@ -29,6 +30,7 @@ ROOT = Path(__file__).resolve().parents[1]
 LAYERED = ("propagate",)
 
 Imports = dict[str, set[str]]
+LISTED = re.compile(r"^//!.*\b[Ii]mports (?:only )?[\[`]|^//!.*\bImports\b", re.MULTILINE)
 USE = re.compile(r"\b(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);")
 KEYWORDS = ("crate", "self", "super")
 
@@ -231,7 +233,10 @@ def problems(source: Path, layered: bool) -> list[str]:
     """The problems in the imports of a crate."""
     crate = Crate(source)
     edges = crate.imports()
-    return list(from_root(crate)) + list(arrows(edges)) + (list(upwards(source, edges)) if layered else [])
+    found = [
+        f"{file.relative_to(source)} lists imports in its head" for file in sorted(source.rglob("*.rs")) if LISTED.search(file.read_text(encoding="utf-8"))
+    ]
+    return found + list(from_root(crate)) + list(arrows(edges)) + (list(upwards(source, edges)) if layered else [])
 
 
 def arrows(edges: Imports) -> Iterator[str]:
@@ -294,6 +299,11 @@ PLANTED = {
             "gravity_gradient::generator::exact -> gravity_gradient::orbit_series, gravity_gradient::orbit_series -> gravity_gradient::envelope"
         ],
     ),
+    "a list of imports in a head": (
+        {"lib.rs": "mod a;\nmod b;\n", "a.rs": "//! A.\n//!\n//! Ends. Imports errors and orbit.\n", "b.rs": "//! It does not import SymPy.\n"},
+        False,
+        ["a.rs lists imports in its head"],
+    ),
     "an import upwards": (
         {"lib.rs": "mod a;\n\nmod b;\n", "a.rs": "use crate::b::{c::C, B};\n", "b/mod.rs": "", "b/c.rs": ""},
         True,
@@ -341,12 +351,12 @@ def planted() -> list[str]:
 def main() -> int:
     """Check the crates or, with --planted, the check itself."""
     if "--planted" in sys.argv[1:]:
-        found, good = planted(), "imports: planted circles, imports upwards and from the root are found"
+        found, good = planted(), "imports: planted circles, lists, imports upwards and from the root are found"
     else:
         crates = sorted(path.parent for path in ROOT.glob("crates/*/src"))
         found = [f"crates/{crate.name}: {problem}" for crate in crates for problem in problems(crate / "src", crate.name in LAYERED)]
         found += [f"crates/py/python: {problem}" for problem in arrows(python_imports(ROOT / "crates/py/python/andoyer"))]
-        good = "imports: no circle, none upwards, none from the root of a crate"
+        good = "imports: no circle, none upwards, none from the root of a crate, no list in a head"
     print("\n".join(found) or good)
     return bool(found)
 
