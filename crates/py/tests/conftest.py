@@ -44,3 +44,17 @@ def scene(body):
 @pytest.fixture(scope="session")
 def motion(scene):
     return scene.solve()
+
+
+@pytest.fixture
+def furnished():
+    """Loads kernels of SPICE with their text kernels, and leaves none."""
+    spice = pytest.importorskip("spiceypy")
+
+    def load(*paths):
+        for path in map(Path, paths):
+            spice.furnsh(str(path))
+            spice.furnsh(str(path.with_suffix(".tsc" if path.suffix == ".bc" else ".tf")))
+
+    yield load
+    spice.kclear()

@@ -189,7 +189,7 @@ def test_strict_plan_of_a_refuted_bound_has_the_status_of_a_missed_tolerance(tmp
         def verify(self, span):
             return wrong
 
-    monkeypatch.setattr("andoyer.cli.solved", lambda path: Wrong())
+    monkeypatch.setattr("andoyer.cli._printing.solved", lambda path: Wrong())
     assert run(tmp_path, capsys, scene(), "--verify")[0] == 0
     status, printed, _ = run(tmp_path, capsys, scene(), "--verify", "--strict")
     assert status == 3 and printed.splitlines()[-1].endswith("is exceeded")

@@ -9,7 +9,6 @@ import math
 import shutil
 import sys
 import textwrap
-import warnings
 from pathlib import Path
 from typing import Any, Literal, NoReturn
 
@@ -20,32 +19,26 @@ import andoyer
 from andoyer import output
 from andoyer._extra import extra
 from andoyer.cli import _converting as converting
+from andoyer.cli import _printing as printing
 from andoyer.cli import _reading as reading
+from andoyer.cli import _series as normal_form
 from andoyer.cli import _writing as writing
-from andoyer.cli._arguments import MOST_SAMPLES, InputError, count, number, step, time, whole
-from andoyer.cli._series import LANGUAGES, PARTS, series
-from andoyer.cli._terminal import Progress, discard_stdout, flush_or_discard_stdout, named, replace_closed_streams
+from andoyer.cli._arguments import MOST_SAMPLES, InputError, count, step, time
+from andoyer.cli._solving import ROTATIONS, interval, solved, status, strictly
+from andoyer.cli._terminal import Progress, discard_stdout, flush_or_discard_stdout, replace_closed_streams
 from andoyer.cli._writing import ENDINGS
 from andoyer.output import COLUMNS, CONVENTION
 from andoyer.output.files import whole_file
 from andoyer.output.page import page
 
-ROTATIONS = 10
-"""Rotations from the epoch that are propagated if neither the scene nor the command line has a span."""
-
 SAMPLES = 1000
 """Samples if the command line gives neither their number nor a step."""
-
-MISSED = 3
-"""Exit status of a tolerance that is not met, under --strict."""
 
 PICTURES = [".png", ".svg", ".pdf", ".html"]
 COMMANDS = ["propagate", "convert", "plot", "code", "plan", "librations", "bodies", "series"]
 Code = Literal["c", "rust", "python", "javascript"]
 CODES: dict[str, Code] = {".c": "c", ".rs": "rust", ".py": "python", ".js": "javascript"}
 """Languages of the code of a motion, each by the ending of its files."""
-ANGLES = {"rad": 1.0, "deg": math.pi / 180, "arcsec": math.pi / 648000}
-"""Units of the amplitudes of a libration, in rad."""
 EXAMPLES = {
     "propagate": """\
 andoyer propagate eros.toml -o eros.csv
@@ -134,9 +127,35 @@ def parser() -> Parser:
     top.set_defaults(run=None)
 
     writes = "write attitude and angular velocity at equal steps of time"
-    command = commands.add_parser(
-        "propagate", help=writes, description=f"{writes.capitalize()}.", **examples(f"Columns {COLUMNS}: {CONVENTION}.", EXAMPLES["propagate"])
-    )
+    told = examples(f"Columns {COLUMNS}: {CONVENTION}.", EXAMPLES["propagate"])
+    add_propagate(commands.add_parser("propagate", help=writes, description=f"{writes.capitalize()}.", **told))
+
+    writes = "a file of attitudes as a SPICE C-kernel, with the times of the file; of an AEM with its frame too"
+    command = commands.add_parser("convert", help=f"write {writes}", description=f"Write {writes}.", **examples("", EXAMPLES["convert"]))
+    converting.add_arguments(command)
+
+    pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole; of a libration its angles and terms"
+    add_plot(commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"])))
+
+    writes = "write a function in C, Rust, Python or JavaScript that evaluates a motion and needs only its language"
+    add_code(commands.add_parser("code", help=writes, description=f"{writes.capitalize()}.", **examples("", EXAMPLES["code"])))
+
+    prints = "print the plan of a scene: method, order, error bound, periods"
+    printing.add_plan(commands.add_parser("plan", help=prints, **examples("", EXAMPLES["plan"])))
+
+    prints = "print the proper modes and the terms of a body locked to its orbit"
+    printing.add_librations(commands.add_parser("librations", help=prints, **examples("", EXAMPLES["librations"])))
+
+    command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source", **examples("", EXAMPLES["bodies"]))
+    command.set_defaults(run=printing.bodies)
+
+    prints = "print the triaxiality polynomials P_0 ... P_N, or the normal form as JSON, LaTeX or source code"
+    normal_form.add_arguments(commands.add_parser("series", help=prints, **examples("", EXAMPLES["series"])))
+    return top
+
+
+def add_propagate(command: argparse.ArgumentParser) -> None:
+    """Add the arguments of `andoyer propagate`."""
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     command.add_argument("-o", "--output", metavar="FILE", required=True, help=f"file to write; its ending chooses the format: {ENDINGS}; - is CSV on stdout")
     command.add_argument("--start", type=time, metavar="T", help="first time (default: start of the scene's span, or its epoch)")
@@ -149,12 +168,9 @@ def parser() -> Parser:
     strictly(command)
     command.set_defaults(run=propagate)
 
-    writes = "a file of attitudes as a SPICE C-kernel, with the times of the file; of an AEM with its frame too"
-    command = commands.add_parser("convert", help=f"write {writes}", description=f"Write {writes}.", **examples("", EXAMPLES["convert"]))
-    converting.add_command(command)
 
-    pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole; of a libration its angles and terms"
-    command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"]))
+def add_plot(command: argparse.ArgumentParser) -> None:
+    """Add the arguments of `andoyer plot`."""
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML), or a file of attitudes")
     command.add_argument(
         "-o", "--output", metavar="FILE", required=True, help="file to write; its ending chooses the format: .png, .svg, .pdf, or .html for an animated page"
@@ -164,8 +180,9 @@ def parser() -> Parser:
     strictly(command)
     command.set_defaults(run=plot)
 
-    writes = "write a function in C, Rust, Python or JavaScript that evaluates a motion and needs only its language"
-    command = commands.add_parser("code", help=writes, description=f"{writes.capitalize()}.", **examples("", EXAMPLES["code"]))
+
+def add_code(command: argparse.ArgumentParser) -> None:
+    """Add the arguments of `andoyer code`."""
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     command.add_argument(
         "-o", "--output", metavar="FILE", default="-", help=f"file to write; its ending chooses the language: {', '.join(CODES)} (default: -, stdout)"
@@ -176,43 +193,6 @@ def parser() -> Parser:
     command.add_argument("--force", action="store_true", help="replace an existing file")
     strictly(command)
     command.set_defaults(run=code)
-
-    command = commands.add_parser("plan", help="print the plan of a scene: method, order, error bound, periods", **examples("", EXAMPLES["plan"]))
-    command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
-    command.add_argument("--verify", action="store_true", help="integrate the full equations, and print the largest error of the attitude")
-    command.add_argument("--start", type=time, metavar="T", help="first time of --verify (default: start of the scene's span, or its epoch)")
-    command.add_argument("--stop", type=time, metavar="T", help="last time of --verify (default: end of the scene's span)")
-    strictly(command)
-    command.set_defaults(run=plan)
-
-    command = commands.add_parser(
-        "librations", help="print the proper modes and the terms of a body locked to its orbit", **examples("", EXAMPLES["librations"])
-    )
-    command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
-    command.add_argument("--forced", action="store_true", help="only the terms that the orbit forces")
-    command.add_argument("--terms", type=count, default=20, metavar="N", help="number of terms (default: 20)")
-    command.add_argument("--unit", choices=list(ANGLES), default="rad", metavar="UNIT", help=f"unit of amplitudes: {', '.join(ANGLES)} (default: rad)")
-    strictly(command)
-    command.set_defaults(run=librations)
-
-    command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source", **examples("", EXAMPLES["bodies"]))
-    command.set_defaults(run=bodies)
-
-    command = commands.add_parser(
-        "series", help="print the triaxiality polynomials P_0 ... P_N, or the normal form as JSON, LaTeX or source code", **examples("", EXAMPLES["series"])
-    )
-    command.add_argument("--order", type=whole, required=True, metavar="N", help="order of the normal form")
-    forms = ["text", "json", "latex", *LANGUAGES]
-    command.add_argument("--to", choices=forms, default="text", metavar="FORM", help=f"output format: {', '.join(forms)} (default: text)")
-    command.add_argument("--part", choices=PARTS, metavar="PART", help=f"part of the normal form for latex: {', '.join(PARTS)} (default: the first)")
-    command.add_argument("--beta", type=number, metavar="BETA", help="triaxiality in source code (default: an argument of the function)")
-    command.set_defaults(run=series)
-    return top
-
-
-def strictly(command: argparse.ArgumentParser) -> None:
-    """Add the option that makes a missed tolerance a failure."""
-    command.add_argument("--strict", action="store_true", help=f"exit with status {MISSED} if the tolerance is not met")
 
 
 def propagate(arguments: argparse.Namespace) -> int:
@@ -298,40 +278,6 @@ def code(arguments: argparse.Namespace) -> int:
     return status(arguments, motion)
 
 
-def read(path: str) -> andoyer.Scene:
-    """Read the scene of a file, and print its warnings on stderr."""
-    with warnings.catch_warnings(record=True) as doubts:
-        warnings.simplefilter("always")
-        scene = andoyer.Scene.from_toml(path)
-    for doubt in doubts:
-        print(f"andoyer: warning: {path}: {doubt.message}", file=sys.stderr)
-    return scene
-
-
-def solved(path: str, *, librates: bool = False) -> andoyer.Motion:
-    """Solve the scene of a file, as a libration if asked. A scene without a motion is an error of the file."""
-    scene = read(path)
-    if librates and scene.method != "libration":
-        state = (scene.body, scene.attitude, scene.angular_velocity)
-        scene = andoyer.Scene(*state, epoch=scene.epoch, orbit=scene.orbit, tolerance=scene.tolerance, span=scene.span, method="libration")
-    with warnings.catch_warnings():
-        # `status` says it in one line.
-        warnings.simplefilter("ignore", andoyer.ToleranceWarning)
-        try:
-            return scene.solve()
-        except andoyer.Error as error:
-            raise InputError(f"{path}: {error}") from error
-
-
-def status(arguments: argparse.Namespace, motion: andoyer.Motion) -> int:
-    """The exit status of a command for this motion. A tolerance that is not met is printed on stderr."""
-    missed = motion.plan.missed_tolerance
-    if missed is None:
-        return 0
-    print(f"andoyer: warning: {missed}", file=sys.stderr)
-    return MISSED if arguments.strict else 0
-
-
 def instants(arguments: argparse.Namespace, motion: andoyer.Motion) -> NDArray[np.float64]:
     """The requested times: from the first to the last, or by steps from the first up to the last."""
     start, stop = interval(motion, arguments.start, arguments.stop)
@@ -353,75 +299,3 @@ def note_sparse(motion: andoyer.Motion, times: NDArray[np.float64]) -> None:
     if apart > 0.5:
         advice = f"--step {rotation / 100:.3g} gives a hundred a rotation"
         print(f"andoyer: note: samples are {apart:.3g} rotations apart; {advice}", file=sys.stderr)
-
-
-def interval(motion: andoyer.Motion, start: float | None, stop: float | None) -> tuple[float, float]:
-    """First and last time: the requested ones, or the span of the scene, or ten rotations from the epoch."""
-    scene = motion.scene
-    if scene.span is not None:
-        start, stop = scene.span[0] if start is None else start, scene.span[1] if stop is None else stop
-    start = scene.epoch if start is None else start
-    if stop is None:
-        rotation = motion.periods["long-axis"].precession
-        if math.isinf(rotation):
-            raise InputError("argument --stop: the body is at rest and has no rotation to count, so a last time must be given")
-        stop = start + ROTATIONS * rotation
-    if not start <= stop:
-        raise InputError(f"argument --stop: {stop!r} is before the first time, {start!r}")
-    return start, stop
-
-
-def plan(arguments: argparse.Namespace) -> int:
-    """Print the plan of a scene, the periods of its motion and, on request, its measured error."""
-    for option in ("start", "stop"):
-        if getattr(arguments, option) is not None and not arguments.verify:
-            raise InputError(f"argument --{option}: goes with --verify alone")
-    motion = solved(arguments.scene)
-    scene = motion.scene
-    print(named("scene"), scene.name or arguments.scene)
-    print(named("body"), repr(scene.body))
-    for line in str(motion.plan).splitlines():
-        print(named(line[:13].rstrip()), line[14:])
-    print(named("energy"), f"E/E0 {motion.energy_ratio:.8g}, k^2 {motion.elliptic_parameter:.8g}")
-    for convention, (precession, rotation) in motion.periods.items():
-        print(named("periods"), f"{convention}: P_phi {precession:.10g}, P_psi {rotation:.10g}")
-    return max(status(arguments, motion), verified(arguments, motion))
-
-
-def librations(arguments: argparse.Namespace) -> int:
-    """Print the proper modes of a body locked to its orbit, and the largest terms of its three angles."""
-    motion = solved(arguments.scene, librates=True)
-    libration = motion.libration
-    assert libration is not None, "the method is libration"
-    unit, size = arguments.unit, ANGLES[arguments.unit]
-    print(named("resonance"), f"{motion.plan.resonance} rotations an orbit, order {motion.plan.order}, error bound {motion.plan.error_bound:.1e} rad")
-    print(named("periods"), "in the unit of time of the scene, in the frame that turns with the resonance")
-    modes = zip(("longitude", "pole, first", "pole, second"), libration.periods, libration.amplitudes, libration.phases, strict=True)
-    for name, period, amplitude, phase in modes:
-        print(named(name), f"period {period:.10g}, amplitude {amplitude / size:.6e} {unit}, phase {phase:.6f} rad")
-    heading = f"amplitude [{unit}]"
-    print(f"{'angle':10} {'modes and M':>14} {'period':>17} {heading:>18} {'phase [rad]':>12}")
-    for term in (libration.forced() if arguments.forced else libration.terms())[: arguments.terms]:
-        multiples = " ".join(f"{k:2d}" for k in term.multiples)
-        print(f"{term.angle:10} {multiples:>14} {term.period:17.10g} {term.amplitude / size:18.8e} {term.phase:12.6f}")
-    return status(arguments, motion)
-
-
-def verified(arguments: argparse.Namespace, motion: andoyer.Motion) -> int:
-    """Print the measured error, if it is asked for; return the exit status."""
-    asked = arguments.start is not None or arguments.stop is not None
-    if not arguments.verify:
-        return 0
-    verification = motion.verify(interval(motion, arguments.start, arguments.stop) if asked else None)
-    print(named("verified"), verification)
-    return MISSED if arguments.strict and verification.refuted else 0
-
-
-def bodies(_arguments: argparse.Namespace) -> int:
-    """Print the catalogue."""
-    print(f"{'name':10} {'A/C':>10} {'B/C':>10} {'beta':>10}  source")
-    for name in andoyer.Body.catalogue():
-        body = andoyer.Body.named(name)
-        a, b, c = np.sort(body.moments)
-        print(f"{name:10} {a / c:10.8f} {b / c:10.8f} {body.beta:10.8f}  {andoyer.Body.source(name)}")
-    return 0

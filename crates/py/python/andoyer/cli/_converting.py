@@ -13,7 +13,7 @@ SAME_AXES = {"EME2000": "J2000", "GCRF": "ICRF", "ICRF": "ICRF"}
 """Names of the CCSDS for inertial frames whose axes SPICE knows by another name."""
 
 
-def add_command(command: argparse.ArgumentParser) -> None:
+def add_arguments(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     command.add_argument("scene", metavar="FILE", help=f"file of attitudes: {', '.join(reading.ATTITUDE_FILES)}")
     command.add_argument("-o", "--output", metavar="FILE.bc", required=True, help="C-kernel to write; beside it a .tsc is written")

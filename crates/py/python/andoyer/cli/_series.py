@@ -6,12 +6,22 @@ from fractions import Fraction
 from typing import Literal, get_args
 
 import andoyer
-from andoyer.cli._arguments import InputError
+from andoyer.cli._arguments import InputError, number, whole
 from andoyer.cli._terminal import Progress
 
 LANGUAGES = ["c", "rust", "python"]
 Part = Literal["hamiltonian", "generator", "direct", "inverse"]
 PARTS: tuple[Part, ...] = get_args(Part)
+
+
+def add_arguments(command: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    command.add_argument("--order", type=whole, required=True, metavar="N", help="order of the normal form")
+    forms = ["text", "json", "latex", *LANGUAGES]
+    command.add_argument("--to", choices=forms, default="text", metavar="FORM", help=f"output format: {', '.join(forms)} (default: text)")
+    command.add_argument("--part", choices=PARTS, metavar="PART", help=f"part of the normal form for latex: {', '.join(PARTS)} (default: the first)")
+    command.add_argument("--beta", type=number, metavar="BETA", help="triaxiality in source code (default: an argument of the function)")
+    command.set_defaults(run=series)
 
 
 def series(arguments: argparse.Namespace) -> int:
