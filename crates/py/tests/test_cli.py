@@ -292,7 +292,7 @@ def test_bar_is_for_terminals_and_long_work(monkeypatch):
     monkeypatch.setattr(_terminal, "PATIENCE", 0.0)
     shown, piped = Terminal(), io.StringIO()
     for stream in (shown, piped):
-        bar = _terminal.Progress("order", stream)
+        bar = _terminal.ProgressBar("order", stream)
         for done in range(5):
             bar(done, 4)
         bar.close()
@@ -300,7 +300,7 @@ def test_bar_is_for_terminals_and_long_work(monkeypatch):
     assert piped.getvalue() == ""
     monkeypatch.setattr(_terminal, "PATIENCE", 1e9)
     quick = Terminal()
-    bar = _terminal.Progress("order", quick)
+    bar = _terminal.ProgressBar("order", quick)
     bar(1, 2)
     bar.close()
     assert quick.getvalue() == ""

@@ -23,9 +23,9 @@ from andoyer.cli import _printing as printing
 from andoyer.cli import _reading as reading
 from andoyer.cli import _series as normal_form
 from andoyer.cli import _writing as writing
-from andoyer.cli._arguments import MOST_SAMPLES, InputError, count, step, time
+from andoyer.cli._arguments import MOST_SAMPLES, InputError, sample_count, step, time
 from andoyer.cli._solving import ROTATIONS, interval, solved, status, strictly
-from andoyer.cli._terminal import Progress, discard_stdout, flush_or_discard_stdout, replace_closed_streams
+from andoyer.cli._terminal import ProgressBar, discard_stdout, flush_or_discard_stdout, replace_closed_streams
 from andoyer.cli._writing import ENDINGS
 from andoyer.output import COLUMNS, CONVENTION
 from andoyer.output.files import whole_file
@@ -161,7 +161,7 @@ def add_propagate(command: argparse.ArgumentParser) -> None:
     command.add_argument("--start", type=time, metavar="T", help="first time (default: start of the scene's span, or its epoch)")
     command.add_argument("--stop", type=time, metavar="T", help=f"last time (default: end of the scene's span, or {ROTATIONS} rotations after the first time)")
     spacing = command.add_mutually_exclusive_group()
-    spacing.add_argument("--samples", type=count, metavar="N", help=f"number of times, the last one included (default: {SAMPLES})")
+    spacing.add_argument("--samples", type=sample_count, metavar="N", help=f"number of times, the last one included (default: {SAMPLES})")
     spacing.add_argument("--step", type=step, metavar="DT", help="time between samples")
     writing.add_orbital(command)
     writing.add_options(command)
@@ -204,10 +204,10 @@ def propagate(arguments: argparse.Namespace) -> int:
         writing.orbital(arguments, motion, [])
         writing.write_kernel(path, motion, interval(motion, arguments.start, arguments.stop), given, arguments.force)
         return status(arguments, motion)
-    samples = motion.at(instants(arguments, motion))
+    samples = motion.at(requested_times(arguments, motion))
     against = writing.orbital(arguments, motion, samples.times)
     if arguments.output == "-":
-        progress = Progress("writing, lines")
+        progress = ProgressBar("writing, lines")
         try:
             output.write_table(sys.stdout, samples, progress, against)
         finally:
@@ -278,7 +278,7 @@ def code(arguments: argparse.Namespace) -> int:
     return status(arguments, motion)
 
 
-def instants(arguments: argparse.Namespace, motion: andoyer.Motion) -> NDArray[np.float64]:
+def requested_times(arguments: argparse.Namespace, motion: andoyer.Motion) -> NDArray[np.float64]:
     """The requested times: from the first to the last, or by steps from the first up to the last."""
     start, stop = interval(motion, arguments.start, arguments.stop)
     with np.errstate(over="ignore", invalid="ignore"):

@@ -46,7 +46,7 @@ def whole(text: str) -> int:
     return checked(text, int, lambda _: True, "a whole number")
 
 
-def count(text: str) -> int:
+def sample_count(text: str) -> int:
     """A number of samples."""
     return checked(text, int, lambda value: 1 <= value <= MOST_SAMPLES, f"a whole number from 1 to {MOST_SAMPLES}")
 

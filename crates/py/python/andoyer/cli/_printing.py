@@ -6,9 +6,9 @@ import math
 import numpy as np
 
 import andoyer
-from andoyer.cli._arguments import InputError, count, time
+from andoyer.cli._arguments import InputError, sample_count, time
 from andoyer.cli._solving import MISSED, interval, solved, status, strictly
-from andoyer.cli._terminal import named
+from andoyer.cli._terminal import label
 
 ANGLES = {"rad": 1.0, "deg": math.pi / 180, "arcsec": math.pi / 648000}
 """Units of the amplitudes of a libration, in rad."""
@@ -31,13 +31,13 @@ def plan(arguments: argparse.Namespace) -> int:
             raise InputError(f"argument --{option}: goes with --verify alone")
     motion = solved(arguments.scene)
     scene = motion.scene
-    print(named("scene"), scene.name or arguments.scene)
-    print(named("body"), repr(scene.body))
+    print(label("scene"), scene.name or arguments.scene)
+    print(label("body"), repr(scene.body))
     for line in str(motion.plan).splitlines():
-        print(named(line[:13].rstrip()), line[14:])
-    print(named("energy"), f"E/E0 {motion.energy_ratio:.8g}, k^2 {motion.elliptic_parameter:.8g}")
+        print(label(line[:13].rstrip()), line[14:])
+    print(label("energy"), f"E/E0 {motion.energy_ratio:.8g}, k^2 {motion.elliptic_parameter:.8g}")
     for convention, (precession, rotation) in motion.periods.items():
-        print(named("periods"), f"{convention}: P_phi {precession:.10g}, P_psi {rotation:.10g}")
+        print(label("periods"), f"{convention}: P_phi {precession:.10g}, P_psi {rotation:.10g}")
     return max(status(arguments, motion), verified(arguments, motion))
 
 
@@ -47,7 +47,7 @@ def verified(arguments: argparse.Namespace, motion: andoyer.Motion) -> int:
     if not arguments.verify:
         return 0
     verification = motion.verify(interval(motion, arguments.start, arguments.stop) if asked else None)
-    print(named("verified"), verification)
+    print(label("verified"), verification)
     return MISSED if arguments.strict and verification.refuted else 0
 
 
@@ -55,7 +55,7 @@ def add_librations(command: argparse.ArgumentParser) -> None:
     """Add the arguments of `andoyer librations`."""
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     command.add_argument("--forced", action="store_true", help="only the terms that the orbit forces")
-    command.add_argument("--terms", type=count, default=20, metavar="N", help="number of terms (default: 20)")
+    command.add_argument("--terms", type=sample_count, default=20, metavar="N", help="number of terms (default: 20)")
     command.add_argument("--unit", choices=list(ANGLES), default="rad", metavar="UNIT", help=f"unit of amplitudes: {', '.join(ANGLES)} (default: rad)")
     strictly(command)
     command.set_defaults(run=librations)
@@ -67,11 +67,11 @@ def librations(arguments: argparse.Namespace) -> int:
     libration = motion.libration
     assert libration is not None, "the method is libration"
     unit, size = arguments.unit, ANGLES[arguments.unit]
-    print(named("resonance"), f"{motion.plan.resonance} rotations an orbit, order {motion.plan.order}, error bound {motion.plan.error_bound:.1e} rad")
-    print(named("periods"), "in the unit of time of the scene, in the frame that turns with the resonance")
+    print(label("resonance"), f"{motion.plan.resonance} rotations an orbit, order {motion.plan.order}, error bound {motion.plan.error_bound:.1e} rad")
+    print(label("periods"), "in the unit of time of the scene, in the frame that turns with the resonance")
     modes = zip(("longitude", "pole, first", "pole, second"), libration.periods, libration.amplitudes, libration.phases, strict=True)
     for name, period, amplitude, phase in modes:
-        print(named(name), f"period {period:.10g}, amplitude {amplitude / size:.6e} {unit}, phase {phase:.6f} rad")
+        print(label(name), f"period {period:.10g}, amplitude {amplitude / size:.6e} {unit}, phase {phase:.6f} rad")
     heading = f"amplitude [{unit}]"
     print(f"{'angle':10} {'modes and M':>14} {'period':>17} {heading:>18} {'phase [rad]':>12}")
     for term in (libration.forced() if arguments.forced else libration.terms())[: arguments.terms]:

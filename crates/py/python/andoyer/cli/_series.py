@@ -7,7 +7,7 @@ from typing import Literal, get_args
 
 import andoyer
 from andoyer.cli._arguments import InputError, number, whole
-from andoyer.cli._terminal import Progress
+from andoyer.cli._terminal import ProgressBar
 
 LANGUAGES = ["c", "rust", "python"]
 Part = Literal["hamiltonian", "generator", "direct", "inverse"]
@@ -29,16 +29,16 @@ def series(arguments: argparse.Namespace) -> int:
     for option, value, served in [("--part", arguments.part, ["latex"]), ("--beta", arguments.beta, LANGUAGES)]:
         if value is not None and arguments.to not in served:
             raise InputError(f"argument {option}: goes with --to {' or '.join(served)} alone, not with --to {arguments.to}")
-    progress = Progress("normal form, order")
+    progress = ProgressBar("normal form, order")
     try:
         normal_form = andoyer.NormalForm(arguments.order, progress=progress if progress.visible else None)
     finally:
         progress.close()
-    sys.stdout.write(written(normal_form, arguments))
+    sys.stdout.write(as_text(normal_form, arguments))
     return 0
 
 
-def written(normal_form: andoyer.NormalForm, arguments: argparse.Namespace) -> str:
+def as_text(normal_form: andoyer.NormalForm, arguments: argparse.Namespace) -> str:
     """The normal form as text in the requested format."""
     if arguments.to == "json":
         return normal_form.to_json() + "\n"

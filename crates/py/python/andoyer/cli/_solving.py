@@ -20,7 +20,7 @@ def strictly(command: argparse.ArgumentParser) -> None:
     command.add_argument("--strict", action="store_true", help=f"exit with status {MISSED} if the tolerance is not met")
 
 
-def read(path: str) -> andoyer.Scene:
+def read_scene(path: str) -> andoyer.Scene:
     """Read the scene of a file, and print its warnings on stderr."""
     with warnings.catch_warnings(record=True) as doubts:
         warnings.simplefilter("always")
@@ -32,7 +32,7 @@ def read(path: str) -> andoyer.Scene:
 
 def solved(path: str, *, librates: bool = False) -> andoyer.Motion:
     """Solve the scene of a file, as a libration if asked. A scene without a motion is an error of the file."""
-    scene = read(path)
+    scene = read_scene(path)
     if librates and scene.method != "libration":
         state = (scene.body, scene.attitude, scene.angular_velocity)
         scene = andoyer.Scene(*state, epoch=scene.epoch, orbit=scene.orbit, tolerance=scene.tolerance, span=scene.span, method="libration")

@@ -10,7 +10,7 @@ PATIENCE = 0.3
 """Seconds before a bar is shown: short work has none."""
 
 
-class Progress:
+class ProgressBar:
     """A progress bar on stderr, if stderr is a terminal. Call it with the amount done and the total, and `close` it at the end."""
 
     def __init__(self, what: str, stream: TextIO | None = None) -> None:
@@ -39,7 +39,7 @@ class Progress:
             self.stream.flush()
 
 
-def named(name: str, stream: TextIO | None = None) -> str:
+def label(name: str, stream: TextIO | None = None) -> str:
     """A name in front of a value, bold on a terminal unless NO_COLOR is set."""
     terminal = (sys.stdout if stream is None else stream).isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
     return f"\x1b[1m{name:13}\x1b[0m" if terminal else f"{name:13}"

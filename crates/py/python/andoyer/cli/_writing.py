@@ -12,7 +12,7 @@ from typing import Any
 import andoyer
 from andoyer import output
 from andoyer.cli._arguments import InputError, date, interpolation, step, whole, word, words
-from andoyer.cli._terminal import Progress
+from andoyer.cli._terminal import ProgressBar
 from andoyer.output import Heading, Kernel
 from andoyer.output.attitude_types import FROM_SAMPLES
 from andoyer.output.calendar import TIME_SYSTEMS
@@ -158,7 +158,7 @@ def write_samples(
     path: Path, motion: andoyer.Motion, samples: andoyer.Samples, given: dict[str, Any], force: bool, against: andoyer.Orbital | None = None
 ) -> None:
     """Write samples in the format of the ending."""
-    progress = Progress("writing, lines")
+    progress = ProgressBar("writing, lines")
     ending = path.suffix.lower()
     remark = motion.plan.missed_tolerance
     try:
@@ -180,7 +180,7 @@ def write_samples(
 def write_kernel(path: Path, motion: andoyer.Motion, interval: tuple[float, float], given: dict[str, Any], force: bool) -> None:
     """Write a C-kernel or a binary PCK."""
     kernel = kernel_of(given)
-    progress = Progress("writing, windows")
+    progress = ProgressBar("writing, windows")
     error = {key: value for key, value in given.items() if key == "interpolation_error"}
     try:
         with written_to(path):

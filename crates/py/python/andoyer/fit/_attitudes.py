@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,20 +13,18 @@ from andoyer._extra import extra
 from andoyer._quaternions import Array, conjugate, product
 from andoyer._refusal import refusal
 from andoyer.fit._degeneracy import undetermined
-from andoyer.fit._given import enough, freed, from_epoch, quaternions, scene_of, whitening
-from andoyer.fit._members import about_body_axes, bodies, members
+from andoyer.fit._given import enough, freed, from_epoch, scene_of, unit_quaternions, whitening
+from andoyer.fit._members import about_body_axes, are_bodies, members
 from andoyer.fit._message import composed
 from andoyer.fit._result import Fit, judged
 from andoyer.fit._rotations import inverse_left_jacobian, logarithm
 from andoyer.fit._steps import Steps
 from andoyer.interop._foreign import as_one, epoch_of
 
-Places: TypeAlias = NDArray[np.intp]
-
 DEFAULT = ("attitude", "angular_velocity", "moments")
 KNOWN = (*DEFAULT, "inertia")
 ADVICE = "Try a first state nearer to the data, more names in free, or an orbit; check sigma and that the quaternions rotate body components [x, y, z, w] into inertial ones."
-POINTS = 1_000_000
+ATTITUDES_AT_ONCE = 1_000_000
 """Attitudes that are compared together, which limits the memory."""
 LEANING = 0.5
 """Standard deviation of a step, relative or in rad, that is taken for granted while only a part of the data is fitted."""
@@ -123,7 +121,7 @@ class _Problem:
     def __init__(self, scene: Scene, times: Any, measured: Any, sigma: ArrayLike, names: tuple[str, ...]) -> None:
         self.times = as_one("times", times)
         count = np.size(self.times) if np.ndim(self.times) else 1
-        self.measured = quaternions("attitudes", measured, count)
+        self.measured = unit_quaternions("attitudes", measured, count)
         self.whiten = whitening(sigma, count)
         self.since = since_epoch(scene, self.times)
         self.elapsed = np.abs(self.since)
@@ -131,17 +129,17 @@ class _Problem:
         self.basis = _without_factor(self.steps.labels)
         enough(3 * count, self.basis.shape[1], "attitudes", "give more attitudes, or name fewer in free")
 
-    def windows(self) -> list[Places]:
+    def windows(self) -> list[NDArray[np.intp]]:
         """Growing parts of the data nearest to the epoch, each twice as large, up to the full set. A poor first state still predicts data near the epoch."""
         nearest = np.argsort(self.elapsed, kind="stable")
         sizes = [len(nearest) >> halvings for halvings in range(len(nearest).bit_length())]
         return [nearest[:size] for size in reversed(sizes) if 3 * size >= self.basis.shape[1]]
 
-    def leaning(self, reduced: Array, window: Places) -> Array:
+    def leaning(self, reduced: Array, window: NDArray[np.intp]) -> Array:
         """Residuals of some data, and how far the step leads: what they do not determine stays near the first state."""
         return np.append(self.whitened(reduced).reshape(-1, 3)[window].ravel(), reduced / LEANING)
 
-    def leaning_jacobian(self, reduced: Array, window: Places) -> Array:
+    def leaning_jacobian(self, reduced: Array, window: NDArray[np.intp]) -> Array:
         jacobian = self.jacobian(reduced)
         of_window = jacobian.reshape(-1, 3, len(reduced))[window].reshape(-1, len(reduced))
         return np.concatenate([of_window, np.eye(len(reduced)) / LEANING])
@@ -199,8 +197,8 @@ class _Problem:
     def chi_squares(self, steps: Array) -> Array:
         """χ² of full steps in rows; NaN where no body has the moments."""
         chi_squares = np.full(len(steps), np.nan)
-        valid = bodies(self.steps, steps)
-        for rows in np.array_split(np.flatnonzero(valid), 1 + len(steps) * len(self.measured) // POINTS):
+        valid = are_bodies(self.steps, steps)
+        for rows in np.array_split(np.flatnonzero(valid), 1 + len(steps) * len(self.measured) // ATTITUDES_AT_ONCE):
             attitudes = about_body_axes(self.steps, steps[rows], members(self.steps, steps[rows], errors="nan").attitude(self.times))
             residuals = logarithm(product(conjugate(attitudes), np.broadcast_to(self.measured, attitudes.shape)))
             chi_squares[rows] = np.sum(np.einsum("nij,mnj->mni", self.whiten, residuals) ** 2, axis=(1, 2))
@@ -210,7 +208,7 @@ class _Problem:
         """Residuals over their standard deviations of full steps in rows, with their derivatives; NaN where no body has the moments."""
         residuals = np.full((len(steps), 3 * len(self.measured)), np.nan)
         jacobians = np.full((*residuals.shape, steps.shape[1]), np.nan)
-        for place in np.flatnonzero(bodies(self.steps, steps)):
+        for place in np.flatnonzero(are_bodies(self.steps, steps)):
             try:
                 motion = self.steps.scene(steps[place]).solve()
                 residuals[place] = np.einsum("nij,nj->ni", self.whiten, self.residuals(motion)).ravel()

@@ -8,7 +8,7 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import NamedTuple, TypeAlias, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,14 +18,13 @@ from andoyer._quaternions import Array
 from andoyer.fit._scattering import with_derivatives
 from andoyer.fit._steps import logarithms_by_shape, moments_of_ellipsoid
 
-CHUNK = 8192
+POINTS_AT_ONCE = 8192
 """Points that are computed together, so that their arrays stay in the cache."""
 
 TOLERANCE = 1e-9
 """Attitude error [rad] of the states that are tried."""
 
 T = TypeVar("T")
-Places: TypeAlias = NDArray[np.intp]
 
 
 class States(NamedTuple):
@@ -35,7 +34,7 @@ class States(NamedTuple):
     attitudes: Array
     rates: Array
 
-    def part(self, rows: "slice | Places") -> "States":
+    def part(self, rows: "slice | NDArray[np.intp]") -> "States":
         """The states of these rows."""
         return States(*(array[rows] for array in self))
 
@@ -68,7 +67,7 @@ class Curve:
 
     def in_chunks(self, states: States, task: Callable[[States], T]) -> list[T]:
         """Apply `task` to parts of the states, on one thread for each core; the list of results."""
-        count = max(1, CHUNK // len(self.times))
+        count = max(1, POINTS_AT_ONCE // len(self.times))
         parts = [states.part(slice(start, start + count)) for start in range(0, len(states.axes), count)]
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             return list(pool.map(task, parts))

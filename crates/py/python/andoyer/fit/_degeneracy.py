@@ -14,10 +14,10 @@ LOOSE = 1.0
 ALIKE = 2.0
 """Standard deviations within which two moments, or two semi-axes, count as equal."""
 MOMENTS, RATIOS = LABELS["moments"], LABELS["shape"]
-PART = 0.999
+SPANNED = 0.999
 """A name is used if its direction, of length 1, has a projection on the undetermined directions that is longer than this."""
 SMALL = 0.05
-"""Part of a difference in the directions that are not determined below which it is determined: √(1 − PART²)."""
+"""Part of a difference in the directions that are not determined below which it is determined: √(1 − SPANNED²)."""
 
 
 def undetermined(singular: Array, directions: Array, loose: float = LOOSE) -> Array:
@@ -39,7 +39,7 @@ def _names(lost: Array, steps: Steps, step: Array) -> list[str]:
     """Names that span the directions: all moments, a common factor of them and single components where they fit, combinations for the rest."""
     names = []
     for name, rows in _named(steps, step):
-        if len(lost) >= len(rows) and np.all(np.linalg.norm(rows @ lost.T, axis=1) > PART):
+        if len(lost) >= len(rows) and np.all(np.linalg.norm(rows @ lost.T, axis=1) > SPANNED):
             names.append(name)
             for row in rows:
                 lost = _without(lost, row)

@@ -8,16 +8,14 @@ Laine, SIAM J. Sci. Comput. 36, A1895, 2014). The draws are taken from the candi
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol, TypeAlias
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from andoyer._quaternions import Array
 
-Places: TypeAlias = NDArray[np.intp]
-
-CHUNK = 1000
+CANDIDATES_AT_ONCE = 1000
 """Candidates that are solved for together."""
 SPARE = 2
 """Candidates of the normal distribution for each draw. They are taken if their effective size is the number of draws."""
@@ -61,11 +59,11 @@ class Candidates(NamedTuple):
         squares = float(np.sum(self.weights**2))
         return float(np.sum(self.weights)) ** 2 / squares if squares > 0 else 0.0
 
-    def drawn(self, count: int, generator: np.random.Generator) -> Places:
+    def drawn(self, count: int, generator: np.random.Generator) -> NDArray[np.intp]:
         """Places of draws: of each candidate n times its weight, rounded up or down (systematic resampling)."""
         total = np.cumsum(self.weights)
         found = np.searchsorted(total, total[-1] * (generator.uniform() + np.arange(count)) / count, side="right")
-        places: Places = np.minimum(found, np.flatnonzero(self.weights)[-1])
+        places: NDArray[np.intp] = np.minimum(found, np.flatnonzero(self.weights)[-1])
         return places
 
 
@@ -82,7 +80,7 @@ def candidates(model: Model, lost: Array, count: int, generator: np.random.Gener
     if found.effective_size >= count:
         return found
     search = _Search(model, basis, frame, triangle, residuals)
-    parts = [search.solved(normal[start : start + CHUNK]) for start in range(0, count, CHUNK)]
+    parts = [search.solved(normal[start : start + CANDIDATES_AT_ONCE]) for start in range(0, count, CANDIDATES_AT_ONCE)]
     steps, chi_squares, logarithms = (np.concatenate(arrays) for arrays in zip(*parts))
     return _weighed(steps, chi_squares, logarithms)
 

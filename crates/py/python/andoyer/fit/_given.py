@@ -18,7 +18,7 @@ NEAR_UNIT = 1e-6
 """Deviation of the norm of a quaternion from 1 that is rounding."""
 
 
-def numbers(argument: str, value: ArrayLike) -> Array:
+def finite(argument: str, value: ArrayLike) -> Array:
     """Finite float64 numbers."""
     try:
         array = np.asarray(value, dtype=np.float64)
@@ -47,11 +47,11 @@ def from_first(argument: str, times: Any, scene: Any = None) -> tuple[Array, Any
     if calendar:
         epoch = value[0]
         seconds, _, _ = since(argument, value, parts(epoch))
-        return numbers(argument, seconds), epoch
+        return finite(argument, seconds), epoch
     if duration and isinstance(scene, Scene):
         at = from_epoch(argument, value, epoch_of(scene), 0.0)
     else:
-        at = numbers(argument, _numbers_of(argument, value))
+        at = finite(argument, _numbers_of(argument, value))
     if duration and at[0] != 0:
         raise refusal(
             argument, float(at[0]), 0.0, f"[0] = {at[0]} s: durations count from the epoch of the scene, which is the first time, so the first must be 0"
@@ -90,7 +90,7 @@ def moderate(argument: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Array
 
 def shaped(argument: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Array:
     """Finite numbers of one of these shapes."""
-    array = numbers(argument, value)
+    array = finite(argument, value)
     if array.shape not in shapes:
         allowed = " or ".join(map(str, shapes))
         raise refusal(argument, array.shape, allowed, f"has shape {array.shape}: it must be {allowed}")
@@ -106,7 +106,7 @@ def positive(argument: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Array
     return array
 
 
-def quaternions(argument: str, value: Any, count: int) -> Array:
+def unit_quaternions(argument: str, value: Any, count: int) -> Array:
     """Unit quaternions [x, y, z, w], shape (count, 4), from numbers, rotations of SciPy or quaternions of another package."""
     array = shaped(argument, _attitudes.quaternions(argument, value)[0], (count, 4))
     norms = np.linalg.norm(array, axis=1)
@@ -160,7 +160,7 @@ MOST = 10_000_000
 """More draws or starts do not fit the memory."""
 
 
-def whole(argument: str, value: Any, least: int) -> int:
+def whole_number(argument: str, value: Any, least: int) -> int:
     """A whole number from the least to `MOST`."""
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
         raise refusal(argument, value, least, f"= {value!r}: it must be a whole number, {least} or more")

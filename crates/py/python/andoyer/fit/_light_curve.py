@@ -14,12 +14,12 @@ from andoyer._extra import extra
 from andoyer._quaternions import Array, angle_between, product
 from andoyer._refusal import refusal
 from andoyer.fit._curve import Curve, Places, States
-from andoyer.fit._given import enough, from_first, generator_of, moderate, scene_of, shaped, span, whole
+from andoyer.fit._given import enough, from_first, generator_of, moderate, scene_of, shaped, span, whole_number
 from andoyer.fit._message import composed, largest_reduced, rivals
 from andoyer.fit._optimum import Optimum
 from andoyer.fit._result import Fit, judged
 from andoyer.fit._rotations import right_jacobian
-from andoyer.fit._scattering import axes_of, directions, law
+from andoyer.fit._scattering import axes_of, law, unit_vectors
 from andoyer.fit._search import Population, best, improve, moved, random_states, reflections, search
 from andoyer.fit._steps import LABELS, Steps, moments_of_ellipsoid
 from andoyer.interop._foreign import epoch_of
@@ -134,7 +134,7 @@ def light_curve(
             first = _state_of(scene_of(scene), semi_axes, epoch)
             population = improve(curve, Population(first, curve.chi_squares(first)), SETTLING)
         else:
-            drawn = random_states(semi_axes, _range(periods), whole("starts", starts, 1), generator_of(rng))
+            drawn = random_states(semi_axes, _range(periods), whole_number("starts", starts, 1), generator_of(rng))
             population = search(curve, drawn)
             population = improve(curve, best(_distinct(curve, population), POLISHED), SETTLING)
         population = _polished(curve, population)
@@ -162,7 +162,7 @@ def _curve(
     deviations = np.broadcast_to(moderate("sigma", sigma, (), (count,)), (count,))
     for argument, vectors in zip(("sun", "observer"), seen):
         shaped(argument, vectors, (3,), (count, 3))
-    sun, observer = (np.atleast_2d(vectors).T for vectors in directions(*seen))
+    sun, observer = (np.atleast_2d(vectors).T for vectors in unit_vectors(*seen))
     labels = np.zeros(count) if curves is None else shaped("curves", curves, (count,))
     members = (labels[:, None] == np.unique(labels)).astype(float)
     return Curve(at, values, deviations**-2.0, sun, observer, members, *model), epoch

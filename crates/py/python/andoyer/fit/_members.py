@@ -13,7 +13,7 @@ from andoyer._refusal import refusal
 from andoyer.fit._steps import Steps
 
 
-def bodies(steps: Steps, rows: Array) -> NDArray[np.bool_]:
+def are_bodies(steps: Steps, rows: Array) -> NDArray[np.bool_]:
     """Whether a body has the moments of each row of steps: they are positive, and none exceeds the sum of the two others."""
     moments = steps.moments(rows)
     valid: NDArray[np.bool_] = (2 * moments.max(axis=1) <= moments.sum(axis=1)) & (moments.min(axis=1) > 0)

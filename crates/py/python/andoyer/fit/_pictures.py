@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 WIDTH = 2.4
 """Half the width of a panel, in standard deviations."""
-POINTS = 181
+ABSCISSAE = 181
 
 
 def corner(parameters: tuple[str, ...], covariance: Array, figure: "Figure | None") -> "Figure":
@@ -40,13 +40,13 @@ def _panel(axes: "Axes", covariance: Array, deviations: Array, place: tuple[int,
     if row < column:
         axes.axis("off")
     elif row == column:
-        abscissa = np.linspace(-WIDTH, WIDTH, POINTS)
+        abscissa = np.linspace(-WIDTH, WIDTH, ABSCISSAE)
         axes.plot(abscissa, np.exp(-(abscissa**2) / 2), color=BLUE)
     else:
         pair = deviations[[column, row]]
         block = covariance[np.ix_([column, row], [column, row])] / np.outer(pair, pair) if np.all(pair > 0) else np.zeros((2, 2))
         values, vectors = np.linalg.eigh(block)
-        angle = np.linspace(0, 2 * np.pi, POINTS)
+        angle = np.linspace(0, 2 * np.pi, ABSCISSAE)
         ellipse = vectors * np.sqrt(np.maximum(values, 0)) @ np.array([np.cos(angle), np.sin(angle)])
         for size, style in ((1, "-"), (2, "--")):
             axes.plot(*(size * ellipse), style, color=BLUE, linewidth=1)

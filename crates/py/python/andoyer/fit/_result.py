@@ -13,11 +13,11 @@ from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.fit._degeneracy import sentence, undetermined
 from andoyer.fit._draws import Model, candidates
-from andoyer.fit._given import generator_of, whole
+from andoyer.fit._given import generator_of, whole_number
 from andoyer.fit._members import members
 from andoyer.fit._optimum import Alias, Optimum, aliases, free_motion
 from andoyer.fit._steps import Steps
-from andoyer.fit._summary import written
+from andoyer.fit._summary import described
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -153,7 +153,7 @@ class Fit:
         >>> bool(7.5 < drawn.delta_chi_square.mean() < 8.5)    # nine parameters without a common factor of the moments
         True
         """
-        count, generator = whole("n", n, 0), generator_of(rng)
+        count, generator = whole_number("n", n, 0), generator_of(rng)
         if not count:
             return Draws(members(self._steps, np.zeros((0, len(self.parameters))), threads=threads), np.zeros(0), 0.0)
         found = candidates(self._model, self.undetermined, count, generator)
@@ -178,7 +178,7 @@ class Fit:
         lines = [
             ("reduced χ²", f"{self.reduced_chi_square:.4g}  (χ² {self.chi_square:.6g}, {self.degrees_of_freedom} degrees of freedom)"),
             ("mode", f"{free_motion(self.scene).plan.mode}  (state at the epoch {self.scene.epoch:g})"),
-            *written(self._steps, self.covariance, self.undetermined),
+            *described(self._steps, self.covariance, self.undetermined),
         ]
         if len(self.optima) > 1:
             lines.append(("minima", f"{len(self.optima)}, the second with Δχ² {self.optima[1].chi_square - self.optima[0].chi_square:.3g}"))

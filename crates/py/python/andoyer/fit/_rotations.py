@@ -4,8 +4,8 @@ import numpy as np
 
 from andoyer._quaternions import Array
 
-SMALL = 1e-4
-"""Angle [rad] below which series replace the quotients; the terms that they drop are of size SMALL⁴."""
+SMALL_ANGLE = 1e-4
+"""Angle [rad] below which series replace the quotients; the terms that they drop are of size SMALL_ANGLE⁴."""
 
 
 def cross_matrix(vector: Array) -> Array:
@@ -36,9 +36,9 @@ def logarithm(quaternion: Array) -> Array:
 def right_jacobian(vector: Array) -> Array:
     """J with exp(v + δ) = exp(v) exp(J δ) to first order, shape (…, 3, 3)."""
     angle = np.linalg.norm(vector, axis=-1)[..., None, None]
-    safe = np.maximum(angle, SMALL)
-    first = np.where(angle < SMALL, 1 / 2 - angle**2 / 24, (1 - np.cos(safe)) / safe**2)
-    second = np.where(angle < SMALL, 1 / 6 - angle**2 / 120, (safe - np.sin(safe)) / safe**3)
+    safe = np.maximum(angle, SMALL_ANGLE)
+    first = np.where(angle < SMALL_ANGLE, 1 / 2 - angle**2 / 24, (1 - np.cos(safe)) / safe**2)
+    second = np.where(angle < SMALL_ANGLE, 1 / 6 - angle**2 / 120, (safe - np.sin(safe)) / safe**3)
     cross = cross_matrix(vector)
     jacobian: Array = np.eye(3) - first * cross + second * (cross @ cross)
     return jacobian
@@ -47,8 +47,8 @@ def right_jacobian(vector: Array) -> Array:
 def inverse_left_jacobian(vector: Array) -> Array:
     """K with log(exp(δ) exp(v)) = v + K δ to first order, shape (…, 3, 3), for angles up to π."""
     angle = np.linalg.norm(vector, axis=-1)[..., None, None]
-    safe = np.maximum(angle, SMALL)
-    second = np.where(angle < SMALL, 1 / 12 + angle**2 / 720, 1 / safe**2 - 1 / (2 * safe * np.tan(safe / 2)))
+    safe = np.maximum(angle, SMALL_ANGLE)
+    second = np.where(angle < SMALL_ANGLE, 1 / 12 + angle**2 / 720, 1 / safe**2 - 1 / (2 * safe * np.tan(safe / 2)))
     cross = cross_matrix(vector)
     jacobian: Array = np.eye(3) - cross / 2 + second * (cross @ cross)
     return jacobian

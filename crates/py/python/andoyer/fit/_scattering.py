@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 
 from andoyer._quaternions import Array, conjugate, rotate
 from andoyer._refusal import refusal
-from andoyer.fit._given import moderate, numbers, quaternions
+from andoyer.fit._given import finite, moderate, unit_quaternions
 from andoyer.interop import _attitudes
 
 TINY = 1e-300
@@ -116,12 +116,12 @@ def brightness(axes: ArrayLike, attitudes: ArrayLike, sun: ArrayLike, observer: 
     3.14159265359
     """
     semi_axes = axes_of(axes)
-    to_sun, to_observer = directions(sun, observer)
+    to_sun, to_observer = unit_vectors(sun, observer)
     formula = law(scattering)
-    given = numbers("attitudes", _attitudes.quaternions("attitudes", attitudes)[0])
+    given = finite("attitudes", _attitudes.quaternions("attitudes", attitudes)[0])
     if given.shape[-1:] != (4,):
         raise refusal("attitudes", given.shape, "(…, 4)", f"has shape {given.shape}: it must be (…, 4)")
-    turn = conjugate(quaternions("attitudes", given.reshape(-1, 4), given.size // 4).reshape(given.shape))
+    turn = conjugate(unit_quaternions("attitudes", given.reshape(-1, 4), given.size // 4).reshape(given.shape))
     for argument, vectors in (("sun", to_sun), ("observer", to_observer)):
         if turn.ndim > 1 and vectors.ndim > 1 and vectors.shape[:-1] != turn.shape[:-1]:
             allowed = (*turn.shape[:-1], 3)
@@ -157,11 +157,11 @@ FARTHEST = -0.9998
 """Cosine of the phase angle 178.9°, beyond which nearly nothing of the lit surface is seen and subtractions cancel."""
 
 
-def directions(sun: ArrayLike, observer: ArrayLike) -> tuple[Array, Array]:
+def unit_vectors(sun: ArrayLike, observer: ArrayLike) -> tuple[Array, Array]:
     """Unit vectors."""
     units = []
     for argument, value in (("sun", sun), ("observer", observer)):
-        vector = numbers(argument, value)
+        vector = finite(argument, value)
         if vector.shape[-1:] != (3,):
             raise refusal(argument, vector.shape, "(3,) or (n, 3)", f"has shape {vector.shape}: it must be (3,) or (n, 3)")
         # Scaled first: squares of large components would be infinite, of small ones 0.

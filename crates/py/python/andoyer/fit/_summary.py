@@ -9,7 +9,7 @@ from andoyer._quaternions import Array
 from andoyer.fit._optimum import free_motion
 from andoyer.fit._steps import Steps, root
 
-PART = 1e-2
+DIFFERENCE = 1e-2
 """Steps of the differences, in standard deviations, or relative and in rad along what the data do not determine."""
 ANGLES = ("pole longitude", "pole latitude", "phase μ", "phase ν")
 
@@ -34,7 +34,7 @@ def _quantities(scene: Scene, semi_axes: Array | None) -> dict[str, float]:
     return values
 
 
-def written(steps: Steps, covariance: Array, undetermined: Array) -> list[tuple[str, str]]:
+def described(steps: Steps, covariance: Array, undetermined: Array) -> list[tuple[str, str]]:
     """Each quantity of the state that the steps begin at, with its value and its standard deviation from the covariance of the free parameters.
 
     `undetermined`: the directions of steps that the data do not determine, shape (d, k).
@@ -71,7 +71,7 @@ def _slopes(steps: Steps, columns: Array, names: list[str]) -> dict[str, Array]:
     found: dict[str, list[float]] = {name: [] for name in names}
     here = _after(steps, np.zeros(len(columns)))
     for column in columns.T:
-        sides = [(side, _after(steps, side * column)) for side in (PART, -PART)]
+        sides = [(side, _after(steps, side * column)) for side in (DIFFERENCE, -DIFFERENCE)]
         (first, up), (last, down) = ((side, values) if values is not None else (0.0, here) for side, values in sides)
         for name in names:
             if up is None or down is None or first == last or not (np.isfinite(up[name]) and np.isfinite(down[name])):

@@ -18,12 +18,13 @@ from typing import Any
 import numpy as np
 
 from andoyer._core import Body, Samples
+from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.output.attitude_types import FROM_SAMPLES, VERSION_1, columns_of
 from andoyer.output.calendar import J2000, TIME_SYSTEMS, count, counts, written
 from andoyer.output.files import whole_file
 from andoyer.output.record import ShortRecord
-from andoyer.output.rows import Array, calendar_times, rows
+from andoyer.output.rows import calendar_times, rows
 
 REAL = "%.15e"
 """Sixteen digits, the most that section 6.8 of the standard lets a number have."""

@@ -124,7 +124,7 @@ def attitudes_of(name: str, table: Array, sequence: str) -> tuple[Array, Array]:
         return attitude, np.radians(table[:, 4:]) if name == "QUATERNION/ANGVEL" else unknown
     if name.startswith("EULER_ANGLE"):
         angles = np.radians(table)
-        turns = [about("XYZ".index(axis), angles[:, place]) for place, axis in enumerate(sequence)]
+        turns = [rotations_about("XYZ".index(axis), angles[:, place]) for place, axis in enumerate(sequence)]
         attitude = product(product(turns[0], turns[1]), turns[2])
         if name == "EULER_ANGLE/DERIVATIVE":
             return attitude, _euler_rates(sequence, turns, angles[:, 3:])
@@ -135,7 +135,7 @@ def attitudes_of(name: str, table: Array, sequence: str) -> tuple[Array, Array]:
 def _spin(name: str, table: Array) -> tuple[Array, Array]:
     """Annex F5: the body rotates at one rate about axis 3, and this axis precesses at one rate about the angular momentum."""
     spin = np.radians(table[:, :4])
-    attitude = product(axis_turned(spin[:, 0], spin[:, 1]), about(2, spin[:, 2]))
+    attitude = product(axis_turned(spin[:, 0], spin[:, 1]), rotations_about(2, spin[:, 2]))
     rates = np.zeros((len(table), 3))
     rates[:, 2] = spin[:, 3]
     if name == "SPIN":
@@ -163,7 +163,7 @@ def _euler_rates(sequence: str, turns: list[Array], speeds: Array) -> Array:
     return total
 
 
-def about(axis: int, angle: Array) -> Array:
+def rotations_about(axis: int, angle: Array) -> Array:
     """Rotations about axis 0, 1 or 2."""
     turned = np.zeros((len(angle), 4))
     turned[:, axis], turned[:, 3] = np.sin(angle / 2), np.cos(angle / 2)
@@ -172,7 +172,7 @@ def about(axis: int, angle: Array) -> Array:
 
 def axis_turned(alpha: Array, delta: Array) -> Array:
     """Z by α + 90°, then X by 90° − δ: the rotation that puts axis Z to right ascension α and declination δ (annex F5.2)."""
-    return product(about(2, alpha + np.pi / 2), about(0, np.pi / 2 - delta))
+    return product(rotations_about(2, alpha + np.pi / 2), rotations_about(0, np.pi / 2 - delta))
 
 
 def directions(vectors: Array) -> tuple[Array, Array]:

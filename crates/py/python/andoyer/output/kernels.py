@@ -15,11 +15,12 @@ import numpy as np
 
 from andoyer._core import InputError, Motion, Samples, _clock_code, _frame_code, _write_motion, _write_samples
 from andoyer._extra import extra
+from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.interop._foreign import epoch_of, scene_times
 from andoyer.output.calendar import J2000, TIME_SYSTEMS, seconds_of_tdb
 from andoyer.output.record import ShortRecord
-from andoyer.output.rows import Array, calendar_times, rows
+from andoyer.output.rows import calendar_times, rows
 from andoyer.output.table import Progress, silent
 
 DELTET = {"DELTA_T_A": [32.184], "K": [1.657e-3], "EB": [1.671e-2], "M": [6.239996, 1.99096871e-7]}

@@ -1,16 +1,15 @@
 """Samples of one motion as rows of numbers, and back."""
 
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from andoyer._core import Motion, Samples
+from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.interop import _attitudes
 from andoyer.interop._foreign import plain
-
-Array: TypeAlias = NDArray[np.float64]
 
 COLUMNS = "t,qx,qy,qz,qw,wx,wy,wz"
 CONVENTION = (

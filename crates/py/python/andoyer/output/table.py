@@ -16,9 +16,10 @@ import numpy as np
 
 from andoyer._core import Error, Orbital, Samples, Scene
 from andoyer._extra import extra
+from andoyer._quaternions import Array
 from andoyer._refusal import refusal, unreadable
 from andoyer.output.files import whole_file
-from andoyer.output.rows import COLUMNS, CONVENTION, Array, calendar_times, rows, samples_of
+from andoyer.output.rows import COLUMNS, CONVENTION, calendar_times, rows, samples_of
 
 ROWS_AT_ONCE = 2**20
 """Rows of a group of Parquet: each takes a fraction of a second."""

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from andoyer._core import Motion, Orbit, Samples
 from andoyer._extra import extra
+from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.output.page import page
 from andoyer.output.span import within_span
@@ -27,7 +28,7 @@ from andoyer.plot._drawing import surface as draw_surface
 from andoyer.plot._film import film
 from andoyer.plot._librations import libration_spectrum, libration_summary, librations, pole_librations
 from andoyer.plot._mode import about, in_order, is_still, mode_axis, names, nutation_angle, precession_and_spin, without_mean
-from andoyer.plot._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION, Array
+from andoyer.plot._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION
 from andoyer.plot._time import SAMPLES, Clock, chosen, clock_of, is_periodic, whole_span, whole_turns
 
 if TYPE_CHECKING:

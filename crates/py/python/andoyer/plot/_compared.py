@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from andoyer._core import InputError, Motion, Samples
-from andoyer._quaternions import angle_between
+from andoyer._quaternions import Array, angle_between
 from andoyer._refusal import refusal
 from andoyer.output.rows import rows
 from andoyer.plot._diagrams import axes_or_new
-from andoyer.plot._style import BLACK, BLUE, GREEN, VERMILION, Array
+from andoyer.plot._style import BLACK, BLUE, GREEN, VERMILION
 from andoyer.plot._time import Clock, clock
 
 if TYPE_CHECKING:

@@ -11,7 +11,8 @@ import numpy as np
 
 from andoyer._core import BirkhoffNormalForm, Motion, Scene, TheoryError, ToleranceWarning
 from andoyer._extra import extra
-from andoyer.plot._style import BLUE, GREY, VERMILION, Array
+from andoyer._quaternions import Array
+from andoyer.plot._style import BLUE, GREY, VERMILION
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -4,7 +4,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from andoyer.plot._style import ARCSECOND, BLACK, BLUE, GREY, VERMILION, Array
+from andoyer._quaternions import Array
+from andoyer.plot._style import ARCSECOND, BLACK, BLUE, GREY, VERMILION
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,8 +6,8 @@ import numpy as np
 
 from andoyer._core import Motion
 from andoyer._extra import extra
-from andoyer._quaternions import rotate
-from andoyer.plot._style import BLACK, BLUE, GREEN, VERMILION, Array
+from andoyer._quaternions import Array, rotate
+from andoyer.plot._style import BLACK, BLUE, GREEN, VERMILION
 from andoyer.plot._time import clock_of
 
 if TYPE_CHECKING:

@@ -10,11 +10,12 @@ from numpy.typing import ArrayLike
 
 from andoyer._core import Libration, LibrationTerm, Motion
 from andoyer._extra import extra
+from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.interop._foreign import plain
 from andoyer.output.span import within_span
 from andoyer.plot._diagrams import axes_or_new
-from andoyer.plot._style import ARCSECOND, BLACK, BLUE, GREEN, GREY, STYLE, VERMILION, Array
+from andoyer.plot._style import ARCSECOND, BLACK, BLUE, GREEN, GREY, STYLE, VERMILION
 from andoyer.plot._time import clock_of
 
 if TYPE_CHECKING:

@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 
 from andoyer._core import Motion
-from andoyer._quaternions import rotate
+from andoyer._quaternions import Array, rotate
 from andoyer._refusal import refusal
-from andoyer.plot._style import Array
 
 AXES = ("short-axis", "long-axis")
 POLE = 1e-12

@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike
 
 from andoyer._core import Motion
 from andoyer._extra import extra
+from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.interop._foreign import epoch_of, plain
 from andoyer.output.span import within_span
-from andoyer.plot._style import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
