@@ -38,7 +38,7 @@ def run(folder, *arguments):
 
 
 def test_stub_is_what_the_module_is(tmp_path):
-    # PyO3's classes cannot be subclassed, have no signature of __new__ that inspect sees, and pickle by methods that no stub lists.
+    # PyO3's classes pickle by methods that no stub lists.
     allowed = tmp_path / "allowed"
     allowed.write_text(
         r"andoyer\._core\.\w+\._restored"
