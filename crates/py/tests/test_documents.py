@@ -139,7 +139,7 @@ def test_troubleshooting_names_every_error_of_the_crates():
     assert [name for name in variants if f"`{name}`" not in page] == []
 
 
-NUMBER = r"(?<![\w.^⁻])\d[\d.,]*(?:e[-−]?\d+)? "
+NUMBER = r"(?<![\w.^⁻])(?:\d[\d.,]*(?:e[-−]?\d+)?|two|three|four|five|six|eight|ten|fifteen|twenty|thirty) "
 SHORT = re.compile(rf"{NUMBER}(?:ms|[µμ]s|ns|(?:milli|micro|nano)seconds?)\b")
 LONG = re.compile(rf"{NUMBER}(?:s|seconds?|minutes?|hours?)\b")
 COST = re.compile(r"\b(?:takes?|taken|took|costs?|cores?|threads?|processor)\b")
@@ -176,7 +176,7 @@ def test_prices_are_those_that_were_measured(tmp_path):
     planted = {
         "a.rs": ("/// One step takes\n/// 4 µs. A clock ticks every 4 s.\nfn f() {} // as long as 2 ms\n", ["One step takes 4 µs.", "as long as 2 ms"]),
         "a.py": ('def f():\n    """Rows, which take 0.1 s."""\n    # The light time changes by 17 minutes.\n', ["Rows, which take 0.1 s."]),
-        "a.md": ("```measured\nensemble\n```\nA form takes 10 ms.\n\n<!-- report: x -->\n3 ns\n<!-- end -->\n", ["A form takes 10 ms."]),
+        "a.md": ("```measured\nensemble\n```\nA form takes two\nseconds.\n\n<!-- report: x -->\n3 ns\n<!-- end -->\n", ["A form takes two seconds."]),
     }
     for name, (text, expected) in planted.items():
         (tmp_path / name).write_text(text, encoding="utf-8")

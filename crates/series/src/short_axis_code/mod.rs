@@ -4,7 +4,7 @@
 //! description of the computation (`computation`) serves the printers of all languages ([`emit`](crate::emit)); the numbers come from `coefficients`.
 //!
 //! Size and cost grow with N² if β is given, and with N³ if β is an argument: order 10 takes 11 kB and 23 kB (441 and 970 additions and
-//! multiplications), order 30 takes 54 kB and 360 kB. With β as an argument the exact transformation is needed, which takes two seconds at order 30. Accuracy:
+//! multiplications), order 30 takes 54 kB and 360 kB. With β as an argument the exact transformation is needed, which takes seconds at order 30. Accuracy:
 //! a few rounding errors of the sums of magnitudes (tests/tests/emitted_code.rs). Source: theory §4, §6, §7, §8; Lara (2017).
 
 mod coefficients;

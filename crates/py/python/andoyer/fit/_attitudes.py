@@ -136,7 +136,7 @@ class _Problem:
         return [nearest[:size] for size in reversed(sizes) if 3 * size >= self.basis.shape[1]]
 
     def leaning(self, reduced: Array, window: NDArray[np.intp]) -> Array:
-        """Residuals of some data, and how far the step leads: what they do not determine stays near the first state."""
+        """Residuals of the data in a window, then reduced / LEANING, which keeps near 0 the components of the step that these data do not determine."""
         return np.append(self.whitened(reduced).reshape(-1, 3)[window].ravel(), reduced / LEANING)
 
     def leaning_jacobian(self, reduced: Array, window: NDArray[np.intp]) -> Array:

@@ -17,7 +17,7 @@ MOMENTS, RATIOS = LABELS["moments"], LABELS["shape"]
 SPANNED = 0.999
 """A name is used if its direction, of length 1, has a projection on the undetermined directions that is longer than this."""
 SMALL = 0.05
-"""Part of a difference in the directions that are not determined below which it is determined: √(1 − SPANNED²)."""
+"""A difference of two parameters counts as determined if its projection on the undetermined directions is shorter than this: √(1 − SPANNED²)."""
 
 
 def undetermined(singular: Array, directions: Array, loose: float = LOOSE) -> Array:

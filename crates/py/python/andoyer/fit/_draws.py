@@ -24,7 +24,7 @@ GAP = 1e-3
 LONGEST_STEP = 0.3
 """Longest step of any component, relative or in rad."""
 SHORTEST = 1e-3
-"""Part of Newton's step below which no shorter one is tried: there is no solution next to it."""
+"""Smallest fraction of Newton's step that is tried. If it does not help either, the candidate has no solution."""
 ITERATIONS = 60
 
 

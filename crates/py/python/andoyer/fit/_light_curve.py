@@ -223,7 +223,7 @@ def _distinct(curve: Curve, population: Population) -> Population:
 
 
 def _different(curve: Curve, population: Population) -> Places:
-    """Places of the best of all states that show the same attitudes of their sorted axes, but for half turns of the body; the best first."""
+    """Indices of distinct states, the best first: of states whose sorted axes have the same attitudes up to half turns of the body, the best alone."""
     order = np.argsort(population.chi_squares, kind="stable")
     states = population.states.part(order)
     times = curve.times[[0, len(curve.times) // 2, -1]]

@@ -67,7 +67,7 @@ def _is_lost(name: str, deviation: float, lost: float) -> bool:
 
 
 def _slopes(steps: Steps, columns: Array, names: list[str]) -> dict[str, Array]:
-    """Derivatives of the quantities along the columns of an array of steps, by central differences; by one side where the other is no body, NaN where both are none."""
+    """Derivatives of the quantities along the columns of an array of steps, by central differences; by a one-sided difference if only one side is a body, NaN if neither is."""
     found: dict[str, list[float]] = {name: [] for name in names}
     here = _after(steps, np.zeros(len(columns)))
     for column in columns.T:
