@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from andoyer._core import Body, Ensemble, Scene
 from andoyer._extra import extra
 from andoyer._quaternions import Array, angle_between, product
 from andoyer._refusal import refusal
-from andoyer.fit._curve import Curve, Places, States
+from andoyer.fit._curve import Curve, States
 from andoyer.fit._given import enough, from_first, generator_of, moderate, scene_of, shaped, span, whole_number
 from andoyer.fit._message import composed, largest_reduced, rivals
 from andoyer.fit._optimum import Optimum
@@ -222,7 +222,7 @@ def _distinct(curve: Curve, population: Population) -> Population:
     return Population(population.states.part(chosen), population.chi_squares[chosen])
 
 
-def _different(curve: Curve, population: Population) -> Places:
+def _different(curve: Curve, population: Population) -> NDArray[np.intp]:
     """Indices of distinct states, the best first: of states whose sorted axes have the same attitudes up to half turns of the body, the best alone."""
     order = np.argsort(population.chi_squares, kind="stable")
     states = population.states.part(order)
@@ -236,7 +236,7 @@ def _different(curve: Curve, population: Population) -> Places:
         apart = angle_between(attitudes[kept][:, None], turned[None]).max(axis=-1).min(axis=-1, initial=np.inf)
         if np.isfinite(attitude).all() and not np.any(apart < SAME):
             kept.append(place)
-    places: Places = order[kept]
+    places: NDArray[np.intp] = order[kept]
     return places
 
 
