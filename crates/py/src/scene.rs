@@ -17,7 +17,7 @@ use crate::foreign::{self};
 use crate::motion::Motion;
 use crate::orbit::{self};
 use crate::scene_class::Scene;
-use crate::torque::{self, Torque};
+use crate::torque;
 use crate::values::immutable;
 use crate::{array, error};
 
@@ -357,8 +357,7 @@ impl Scene {
     /// The torques beside the gravity gradient, a tuple.
     #[getter]
     fn torques<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let torques = self.scene.asked_torques().iter().map(|torque| Bound::new(py, Torque(torque.clone())));
-        PyTuple::new(py, torques.collect::<PyResult<Vec<_>>>()?)
+        torque::tuple(py, self.scene.asked_torques())
     }
 
     /// The name, or None.

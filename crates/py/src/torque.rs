@@ -262,3 +262,9 @@ pub(crate) fn torques(value: &Bound<'_, PyAny>) -> PyResult<Vec<Inner>> {
     let members = value.try_iter().map_err(|_| refused(value))?;
     members.map(|member| member.and_then(|member| one(&member).ok_or_else(|| refused(&member)))).collect()
 }
+
+/// Torques as Python has them.
+pub(crate) fn tuple<'py>(py: Python<'py>, torques: &[Inner]) -> PyResult<Bound<'py, PyTuple>> {
+    let torques = torques.iter().map(|torque| Bound::new(py, Torque(torque.clone())));
+    PyTuple::new(py, torques.collect::<PyResult<Vec<_>>>()?)
+}

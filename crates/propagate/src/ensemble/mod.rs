@@ -9,8 +9,10 @@ mod kept;
 mod members;
 mod motions;
 mod on_error;
+mod options;
 mod pool;
 mod run;
+mod scenes;
 
 pub use crate::outcome::Outcome;
 pub use kept::KEPT_MEMORY;

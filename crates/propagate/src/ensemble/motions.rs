@@ -21,15 +21,19 @@ use super::members::{BLOCK, Ensemble};
 const DISTURBED_GROUP: usize = 8;
 
 impl Ensemble {
-    pub(super) fn scene(&self, index: usize) -> Result<Scene, Error> {
+    pub(super) fn scene_of_columns(&self, index: usize) -> Result<Scene, Error> {
         let state = State::new(self.epoch(index), self.attitudes()[index], self.angular_velocities()[index])?;
         let body = match self.asked_tensors().get(index) {
             Some(tensor) => Body::from_inertia(*tensor)?,
             None => Body::new(self.moments()[index])?,
         };
         let mut scene = Scene::new(body, state).tolerance(self.asked_tolerance()).method(self.asked_method());
-        if let Some(&orbit) = self.orbit(index) {
-            scene = scene.orbit(orbit);
+        scene = scene.level(self.asked_level());
+        if !self.orbits_of(index).is_empty() {
+            scene = scene.disturbing(self.orbits_of(index).iter().cloned());
+        }
+        if !self.asked_torques().is_empty() {
+            scene = scene.torques(self.asked_torques().to_vec());
         }
         if let Some((start, stop)) = self.asked_span() {
             scene = scene.span(start, stop);
@@ -63,7 +67,11 @@ impl Ensemble {
 
     /// Whether the motion of a member is kept: it takes some 100 times as long to solve if a torque acts or it is integrated.
     pub(super) fn is_kept(&self, member: usize) -> bool {
-        self.orbit(member).is_some() || self.asked_method() == Method::Integrated
+        let (method, torques) = match self.scenes.get(member) {
+            Some(scene) => (scene.asked_method(), scene.asked_torques()),
+            None => (self.asked_method(), self.asked_torques()),
+        };
+        !self.orbits_of(member).is_empty() || !torques.is_empty() || method == Method::Integrated
     }
 
     /// The motion of a member that is kept.
@@ -73,8 +81,11 @@ impl Ensemble {
     }
 
     /// Whether no member is kept.
-    fn is_free(&self) -> bool {
-        self.asked_orbits().is_empty() && self.asked_method() != Method::Integrated
+    pub fn is_free(&self) -> bool {
+        match self.scenes.len() {
+            0 => self.is_empty() || self.asked_orbits().is_empty() && !self.is_kept(0),
+            members => !(0..members).any(|member| self.is_kept(member)),
+        }
     }
 
     /// Members that are solved at once.

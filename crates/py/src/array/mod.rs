@@ -116,10 +116,10 @@ pub(crate) fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> 
     }
 }
 
-/// N numbers for each member of an ensemble: an array_like of shape (m, N), or (N,) for all members.
-pub(crate) enum MemberRows<const N: usize> {
-    One([f64; N]),
-    Many(Vec<[f64; N]>),
+/// N numbers for each member of an ensemble: an array_like of shape (m, N), or (N,) for all members. Instead of numbers there may be rows of a matrix.
+pub(crate) enum MemberRows<const N: usize, Item = f64> {
+    One([Item; N]),
+    Many(Vec<[Item; N]>),
 }
 
 impl<const N: usize> MemberRows<N> {
@@ -142,14 +142,6 @@ impl<const N: usize> MemberRows<N> {
         }
     }
 
-    /// The number of rows, or None if a single row is used for all members.
-    pub(crate) fn members(&self) -> Option<usize> {
-        match self {
-            Self::One(_) => None,
-            Self::Many(rows) => Some(rows.len()),
-        }
-    }
-
     /// Changes every row.
     pub(crate) fn each(&mut self, change: impl FnMut(&mut [f64; N])) {
         match self {
@@ -159,9 +151,19 @@ impl<const N: usize> MemberRows<N> {
         .iter_mut()
         .for_each(change);
     }
+}
+
+impl<const N: usize, Item: Copy> MemberRows<N, Item> {
+    /// The number of rows, or None if a single row is used for all members.
+    pub(crate) fn members(&self) -> Option<usize> {
+        match self {
+            Self::One(_) => None,
+            Self::Many(rows) => Some(rows.len()),
+        }
+    }
 
     /// All rows, or the single row repeated `members` times.
-    pub(crate) fn repeated(self, members: usize) -> Vec<[f64; N]> {
+    pub(crate) fn repeated(self, members: usize) -> Vec<[Item; N]> {
         match self {
             Self::One(row) => vec![row; members],
             Self::Many(rows) => rows,

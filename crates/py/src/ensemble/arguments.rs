@@ -1,5 +1,6 @@
 //! Arguments of `andoyer.Ensemble`.
 
+use andoyer_propagate::disturbers::DisturbingBody;
 use andoyer_propagate::ensemble::Outcome;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -8,6 +9,9 @@ use crate::array::{number, numbers_of};
 use crate::error;
 use crate::foreign::{self, Calendar};
 use crate::orbit::Orbit;
+use crate::scene::arguments::{disturbing_bodies, kind};
+use crate::scene_class::Scene;
+use crate::tabulated::TabulatedOrbit;
 
 /// Epochs as numbers, one or one for each member, and as calendar times if they are Time objects.
 pub(super) fn epochs_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<Calendar>)> {
@@ -18,7 +22,7 @@ pub(super) fn epochs_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<Cal
 /// The ensemble with its options.
 pub(super) fn asked(
     ensemble: andoyer_propagate::Ensemble,
-    orbits: Option<Vec<Option<andoyer_propagate::Orbit>>>,
+    orbits: Option<Vec<Vec<DisturbingBody>>>,
     span: Option<(f64, f64)>,
     threads: Option<usize>,
 ) -> Result<andoyer_propagate::Ensemble, andoyer_propagate::Error> {
@@ -30,25 +34,58 @@ pub(super) fn asked(
     Ok(threads.into_iter().fold(ensemble, andoyer_propagate::Ensemble::threads))
 }
 
-/// One orbit for all members, or an orbit or None for each.
-pub(super) fn orbits_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Option<andoyer_propagate::Orbit>>> {
-    let kind = |name: &str, value: &Bound<'_, PyAny>, or: &str| -> PyErr {
-        let found = value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string());
-        PyTypeError::new_err(format!("{name} must be an Orbit or {or}, not {found}"))
-    };
-    if let Ok(orbit) = value.cast::<Orbit>() {
-        return Ok(vec![Some(orbit.get().0)]);
+/// The bodies that act on all members, of the argument `orbit`, or on each, of `orbits`.
+pub(super) fn orbits_given(
+    orbit: Option<&Bound<'_, PyAny>>,
+    orbits: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Option<Vec<Vec<DisturbingBody>>>> {
+    match (orbit, orbits) {
+        (Some(of_all), None) => Ok(Some(vec![disturbing_bodies(of_all)?])),
+        (None, Some(orbits)) => orbits_of(orbits).map(Some),
+        (None, None) => Ok(None),
+        (Some(_), Some(_)) => Err(PyTypeError::new_err("orbit is that of all members: orbits must be None beside it")),
     }
-    let members = value.try_iter().map_err(|_| kind("orbits", value, "a sequence of one or None for each member"))?;
-    let orbit = |(index, member): (usize, PyResult<Bound<'_, PyAny>>)| {
+}
+
+/// The bodies of one orbit for all members, or those of an orbit, several or None for each.
+fn orbits_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Vec<DisturbingBody>>> {
+    let is_one = |value: &Bound<'_, PyAny>| value.is_instance_of::<Orbit>() || value.is_instance_of::<TabulatedOrbit>();
+    if is_one(value) {
+        return Ok(vec![disturbing_bodies(value)?]);
+    }
+    let or = "a sequence with one, several or None for each member";
+    let members = value.try_iter().map_err(|_| not_an_orbit("orbits", value, or))?;
+    let bodies = |(index, member): (usize, PyResult<Bound<'_, PyAny>>)| {
         let member = member?;
-        match member.cast::<Orbit>() {
-            Ok(orbit) => Ok(Some(orbit.get().0)),
-            Err(_) if member.is_none() => Ok(None),
-            Err(_) => Err(kind(&format!("orbits[{index}]"), &member, "None")),
+        if member.is_none() {
+            return Ok(Vec::new());
         }
+        disturbing_bodies(&member).map_err(|_| not_an_orbit(&format!("orbits[{index}]"), &member, "None"))
     };
-    members.enumerate().map(orbit).collect()
+    members.enumerate().map(bodies).collect()
+}
+
+fn not_an_orbit(name: &str, value: &Bound<'_, PyAny>, or: &str) -> PyErr {
+    PyTypeError::new_err(format!("{name} must be an Orbit or {or}, not {}", kind(value)))
+}
+
+/// The scenes of `Ensemble.from_scenes`, and their calendar epochs.
+pub(super) fn scenes_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<andoyer_propagate::Scene>, Vec<Calendar>)> {
+    let refused = |name: &str, value: &Bound<'_, PyAny>| {
+        PyTypeError::new_err(format!("{name} must be an andoyer.Scene, not {}", kind(value)))
+    };
+    let (mut scenes, mut calendar) = (Vec::new(), Vec::new());
+    for (index, member) in value.try_iter().map_err(|_| refused("scenes", value))?.enumerate() {
+        let member = member?;
+        let scene = member.cast::<Scene>().map_err(|_| refused(&format!("scenes[{index}]"), &member))?.get();
+        calendar.extend(scene.calendar);
+        scenes.push(scene.scene.clone());
+        if !calendar.is_empty() && calendar.len() < scenes.len() {
+            let text = format!("scenes[{index}] and another one: one has a calendar epoch, the other a number");
+            return Err(error::input("scenes", index, "epochs of one kind", text));
+        }
+    }
+    Ok((scenes, calendar))
 }
 
 pub(super) fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {

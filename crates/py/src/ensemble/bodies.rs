@@ -1,13 +1,16 @@
-//! The bodies of the members: principal moments, or inertia tensors.
+//! The bodies of the members: principal moments, inertia tensors, or `Body` objects.
 
 use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::Error as Propagation;
 use andoyer_propagate::ensemble::OnError;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 use crate::array::{MemberRows, tensors};
+use crate::body::Body;
 use crate::error;
+use crate::scene::arguments::kind;
 
 /// The shapes of the argument.
 const SHAPES: &str = "(m, 3) or (3,) for principal moments, or (m, 3, 3) for tensors as of Body.from_inertia";
@@ -15,13 +18,47 @@ const SHAPES: &str = "(m, 3) or (3,) for principal moments, or (m, 3, 3) for ten
 /// The argument `moments`.
 pub(super) enum Bodies {
     Moments(MemberRows<3>),
-    Tensors(Vec<[[f64; 3]; 3]>),
+    Tensors(MemberRows<3, [f64; 3]>),
 }
 
 impl Bodies {
-    pub(super) fn new(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+    /// The arguments `moments` and `bodies`, of which one is given.
+    pub(super) fn given(moments: Option<&Bound<'_, PyAny>>, bodies: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        match (moments.filter(|moments| !moments.is_none()), bodies) {
+            (Some(moments), None) => Self::new(moments),
+            (None, Some(bodies)) => Self::of_classes(bodies),
+            (None, None) => Err(PyTypeError::new_err("moments or bodies must be given")),
+            (Some(_), Some(_)) => Err(PyTypeError::new_err("moments must be None where bodies are given")),
+        }
+    }
+
+    /// A `Body` for all members, or one for each.
+    fn of_classes(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let one = |value: &Bound<'_, PyAny>| value.cast::<Body>().ok().map(|body| body.get().body.clone());
+        let refused = |name: &str, value: &Bound<'_, PyAny>| {
+            PyTypeError::new_err(format!("{name} must be an andoyer.Body, not {}", kind(value)))
+        };
+        if let Some(body) = one(value) {
+            return Ok(match body.has_tensor() {
+                true => Self::Tensors(MemberRows::One(body.inertia())),
+                false => Self::Moments(MemberRows::One(body.moments())),
+            });
+        }
+        let member = |(index, member): (usize, PyResult<Bound<'_, PyAny>>)| {
+            let member = member?;
+            one(&member).ok_or_else(|| refused(&format!("bodies[{index}]"), &member))
+        };
+        let members = value.try_iter().map_err(|_| refused("bodies", value))?;
+        let bodies: Vec<_> = members.enumerate().map(member).collect::<PyResult<_>>()?;
+        Ok(match bodies.iter().any(andoyer_propagate::Body::has_tensor) {
+            true => Self::Tensors(MemberRows::Many(bodies.iter().map(andoyer_propagate::Body::inertia).collect())),
+            false => Self::Moments(MemberRows::Many(bodies.iter().map(andoyer_propagate::Body::moments).collect())),
+        })
+    }
+
+    fn new(value: &Bound<'_, PyAny>) -> PyResult<Self> {
         match tensors("moments", value)? {
-            Some(tensors) => Ok(Self::Tensors(tensors)),
+            Some(tensors) => Ok(Self::Tensors(MemberRows::Many(tensors))),
             None => MemberRows::of_shape("moments", value, SHAPES).map(Self::Moments),
         }
     }
@@ -46,7 +83,7 @@ impl Bodies {
     fn rows(&self) -> Option<usize> {
         match self {
             Self::Moments(rows) => rows.members(),
-            Self::Tensors(tensors) => Some(tensors.len()),
+            Self::Tensors(tensors) => tensors.members(),
         }
     }
 
@@ -63,6 +100,7 @@ impl Bodies {
                 andoyer_propagate::Ensemble::new_or(rows.repeated(members), attitudes, rates, on_error, stop)
             }
             Self::Tensors(tensors) => {
+                let tensors = tensors.repeated(members);
                 andoyer_propagate::Ensemble::from_inertia_or(tensors, attitudes, rates, on_error, stop)
             }
         }

@@ -2,6 +2,8 @@
 
 use std::sync::atomic::AtomicBool;
 
+use andoyer_propagate::Error as Propagation;
+use andoyer_propagate::disturbers::DisturbingBody;
 use andoyer_propagate::options::Method;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -13,7 +15,7 @@ use crate::computing::detached;
 use crate::error;
 use crate::foreign;
 use crate::motion::Motion;
-use crate::orbit::Orbit;
+use crate::scene::arguments::disturbing_body;
 
 impl Ensemble {
     /// The members of a slice.
@@ -21,6 +23,19 @@ impl Ensemble {
         let range = slice.indices(self.0.len() as isize)?;
         let chosen: Vec<usize> =
             (0..range.slicelength as isize).map(|k| (range.start + k * range.step) as usize).collect();
+        let calendar = match &self.1[..] {
+            [] | [_] => self.1.clone(),
+            each => chosen.iter().map(|&member| each[member]).collect(),
+        };
+        self.chosen(&chosen).map(|part| Self(part, calendar)).map_err(error::propagation)
+    }
+
+    fn chosen(&self, chosen: &[usize]) -> Result<andoyer_propagate::Ensemble, Propagation> {
+        if !self.0.asked_scenes().is_empty() {
+            let scenes = chosen.iter().map(|&member| self.0.asked_scenes()[member].clone()).collect();
+            let part = andoyer_propagate::Ensemble::from_scenes(scenes, self.0.asked_on_error())?;
+            return asked(part, None, None, self.0.asked_threads());
+        }
         let attitudes = chosen.iter().map(|&member| self.0.attitudes()[member]).collect();
         let rates = chosen.iter().map(|&member| self.0.angular_velocities()[member]).collect();
         let (on_error, going) = (self.0.asked_on_error(), AtomicBool::new(false));
@@ -31,29 +46,39 @@ impl Ensemble {
             let tensors = chosen.iter().map(|&member| self.0.asked_tensors()[member]).collect();
             andoyer_propagate::Ensemble::from_inertia_or(tensors, attitudes, rates, on_error, &going)
         };
-        let part = part.map_err(error::propagation)?.tolerance(self.0.asked_tolerance()).method(self.0.asked_method());
+        let part = part?.tolerance(self.0.asked_tolerance()).method(self.0.asked_method()).level(self.0.asked_level());
+        let part = part.torques(self.0.asked_torques().iter().cloned());
         let part = match self.0.asked_epochs() {
             [] => Ok(part),
             [of_all] => part.epochs(vec![*of_all]),
             each => part.epochs(chosen.iter().map(|&member| each[member]).collect()),
-        }
-        .map_err(error::propagation)?;
-        let calendar = match &self.1[..] {
-            [] | [_] => self.1.clone(),
-            each => chosen.iter().map(|&member| each[member]).collect(),
-        };
+        }?;
         let orbits = match self.0.asked_orbits() {
             [] => None,
-            [of_all] => Some(vec![*of_all]),
-            each => Some(chosen.iter().map(|&member| each[member]).collect()),
+            [of_all] => Some(vec![of_all.clone()]),
+            each => Some(chosen.iter().map(|&member| each[member].clone()).collect()),
         };
         asked(part, orbits, self.0.asked_span(), self.0.asked_threads())
-            .map(|part| Self(part, calendar))
-            .map_err(error::propagation)
+    }
+
+    /// What makes the ensemble anew, and its arguments.
+    pub(super) fn reduced<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let class = py.get_type::<Self>();
+        if self.0.asked_scenes().is_empty() {
+            let (arrays, keywords) = self.arguments(py)?;
+            let new = py.import("copyreg")?.getattr("__newobj_ex__")?;
+            return Ok((new, (class, arrays, keywords).into_pyobject(py)?));
+        }
+        let keywords = PyDict::new(py);
+        keywords.set_item("errors", self.0.asked_on_error().to_string())?;
+        keywords.set_item("threads", self.threads())?;
+        let of_scenes = (class.getattr("from_scenes")?,);
+        let new = py.import("functools")?.getattr("partial")?.call(of_scenes, Some(&keywords))?;
+        Ok((new, (self.scenes(py)?,).into_pyobject(py)?))
     }
 
     /// Positional and keyword arguments of the constructor.
-    pub(super) fn arguments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+    fn arguments<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
         let bodies = if self.0.asked_tensors().is_empty() { self.moments(py)? } else { self.inertia(py)? };
         let arrays = (bodies, self.attitudes(py)?, self.angular_velocities(py)?);
         let keywords = PyDict::new(py);
@@ -66,16 +91,23 @@ impl Ensemble {
         keywords.set_item("orbits", self.orbits(py)?)?;
         keywords.set_item("tolerance", self.tolerance())?;
         keywords.set_item("method", self.0.asked_method().to_string())?;
+        keywords.set_item("level", self.level())?;
+        if !self.0.asked_torques().is_empty() {
+            keywords.set_item("torques", self.torques(py)?)?;
+        }
         keywords.set_item("span", self.span())?;
         keywords.set_item("threads", self.threads())?;
-        (arrays, keywords).into_pyobject(py)
+        Ok((arrays.into_pyobject(py)?, keywords))
     }
 
     /// What `repr` says.
     pub(super) fn text(&self) -> String {
         let bodies = if self.0.len() == 1 { "body" } else { "bodies" };
         let threads = self.0.asked_threads().map_or_else(String::new, |threads| format!(", threads={threads}"));
-        let disturbed = (0..self.0.len()).filter(|&member| self.0.orbit(member).is_some()).count();
+        if !self.0.asked_scenes().is_empty() {
+            return format!("<Ensemble of {} scenes{threads}>", self.0.len());
+        }
+        let disturbed = (0..self.0.len()).filter(|&member| !self.0.orbits_of(member).is_empty()).count();
         let orbits = if disturbed > 0 { format!(", {disturbed} under an orbit") } else { String::new() };
         let span =
             self.0.asked_span().map_or_else(String::new, |(start, stop)| format!(", span=({start:?}, {stop:?})"));
@@ -106,13 +138,20 @@ impl Ensemble {
         }
     }
 
-    /// One orbit, a list of them, or None.
+    /// One orbit, a list with one, several or None for each member, or None. Several of all members are a list of one list.
     pub(super) fn orbits_as_given<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let orbits: Vec<_> = self.0.asked_orbits().iter().map(|orbit| orbit.map(Orbit)).collect();
+        let of_member = |bodies: &Vec<DisturbingBody>| match &bodies[..] {
+            [] => Ok(py.None().into_bound(py)),
+            [body] => disturbing_body(py, body),
+            several => {
+                let several = several.iter().map(|body| disturbing_body(py, body)).collect::<PyResult<Vec<_>>>()?;
+                several.into_pyobject(py)
+            }
+        };
         match self.0.asked_orbits() {
             [] => Ok(py.None().into_bound(py)),
-            [Some(orbit)] => Ok(Bound::new(py, Orbit(*orbit))?.into_any()),
-            _ => Ok(orbits.into_pyobject(py)?.into_any()),
+            [of_all] if of_all.len() == 1 => of_member(of_all),
+            each => each.iter().map(of_member).collect::<PyResult<Vec<_>>>()?.into_pyobject(py),
         }
     }
 }

@@ -16,7 +16,7 @@ use crate::partials::Partials;
 
 impl Ensemble {
     pub(super) fn times<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Times<'py>> {
-        Times::of_members(value, self.0.len(), &self.1, !self.0.asked_orbits().is_empty())
+        Times::of_members(value, self.0.len(), &self.1, !self.0.is_free())
     }
 
     /// How the members are evaluated at these times.
@@ -72,7 +72,7 @@ impl Ensemble {
         py: Python<'_>,
         find: impl FnOnce(MembersRun<'_>) -> Result<T, Propagation> + Send,
     ) -> PyResult<T> {
-        let long = self.0.len() >= if self.0.asked_orbits().is_empty() { LONG } else { 32 };
+        let long = self.0.len() >= if self.0.is_free() { LONG } else { 32 };
         interruptible(py, long, error::propagation, |stop| find(self.0.run().until(stop)))
     }
 

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::ensemble::{MAX_THREADS, OnError};
 use andoyer_propagate::error::Kind;
-use andoyer_propagate::options::{Convention, Method};
+use andoyer_propagate::options::{Convention, Level, Method};
 use andoyer_propagate::periods::Periods;
 use andoyer_series::threads::alone;
 use numpy::{IntoPyArray, PyArray1, PyArrayDyn, PyArrayMethods};
@@ -21,13 +21,15 @@ use crate::order::whole_number;
 use crate::partials::Partials;
 use crate::plan::Plan;
 use crate::samples::Samples;
+use crate::scene_class::Scene;
+use crate::torque;
 use crate::values::immutable;
 
 mod arguments;
 mod bodies;
 mod copies;
 mod evaluate;
-use arguments::{asked, epochs_of, orbits_of, refused, tolerance};
+use arguments::{asked, epochs_of, orbits_given, refused, scenes_of, tolerance};
 use bodies::Bodies;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
@@ -45,31 +47,37 @@ immutable!(Ensemble);
 #[pymethods]
 impl Ensemble {
     #[new]
-    #[pyo3(signature = (moments, attitudes, angular_velocities, *, epochs=None, orbits=None, tolerance=1e-12, method="auto", span=None, threads=None, errors="raise", scalar_first=false))]
+    #[pyo3(signature = (moments, attitudes, angular_velocities, *, bodies=None, epochs=None, orbit=None, orbits=None, torques=None, tolerance=1e-12, method="auto", level="auto", span=None, threads=None, errors="raise", scalar_first=false))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn new(
         py: Python<'_>,
-        moments: &Bound<'_, PyAny>,
+        moments: Option<&Bound<'_, PyAny>>,
         attitudes: &Bound<'_, PyAny>,
         angular_velocities: &Bound<'_, PyAny>,
+        bodies: Option<&Bound<'_, PyAny>>,
         epochs: Option<&Bound<'_, PyAny>>,
+        orbit: Option<&Bound<'_, PyAny>>,
         orbits: Option<&Bound<'_, PyAny>>,
+        torques: Option<&Bound<'_, PyAny>>,
         #[pyo3(from_py_with = tolerance)] tolerance: f64,
         method: &str,
+        level: &str,
         span: Option<&Bound<'_, PyAny>>,
         threads: Option<&Bound<'_, PyAny>>,
         errors: &str,
         scalar_first: bool,
     ) -> PyResult<Self> {
-        let bodies = Bodies::new(moments)?;
+        let bodies = Bodies::given(moments, bodies)?;
         let (attitudes, scalar_first) = foreign::attitudes("attitudes", attitudes, scalar_first)?;
         let mut attitudes = MemberRows::new("attitudes", &attitudes)?;
         attitudes.each(|quaternion| foreign::scalar_last(quaternion, scalar_first));
         let rates = MemberRows::new("angular_velocities", angular_velocities)?;
         let threads = threads.map(|value| whole_number("threads", value, 1, MAX_THREADS, Kind::Input)).transpose()?;
-        let orbits = orbits.map(orbits_of).transpose()?;
+        let orbits = orbits_given(orbit, orbits)?;
+        let torques = torques.map(torque::torques).transpose()?.unwrap_or_default();
         let on_error: OnError = errors.parse().map_err(error::propagation)?;
         let method: Method = method.parse().map_err(error::propagation)?;
+        let level: Level = level.parse().map_err(error::propagation)?;
         let (epochs, calendar) = epochs.map(epochs_of).transpose()?.unwrap_or_default();
         let first = epochs.first().copied().unwrap_or(0.0);
         let span = span.map(|value| span_of(value, first, calendar.first().copied())).transpose()?;
@@ -80,10 +88,77 @@ impl Ensemble {
             let ensemble = if threads == Some(1) { alone(checked) } else { checked() }?;
             let ensemble = if epochs.is_empty() { ensemble } else { ensemble.epochs(epochs)? };
             let span = span.map(|[start, stop]: [f64; 2]| (start, stop));
-            let ensemble = asked(ensemble.tolerance(tolerance).method(method), orbits, span, threads)?;
+            let ensemble = ensemble.tolerance(tolerance).method(method).level(level).torques(torques);
+            let ensemble = asked(ensemble, orbits, span, threads)?;
             ensemble.validate().map(|()| ensemble)
         };
         interruptible(py, members >= LONG, error::propagation, new).map(|ensemble| Self(ensemble, calendar))
+    }
+
+    /// An ensemble of scenes of any kind: free bodies, one or several orbits, tables, torques, locked rotation, each with its own options.
+    ///
+    /// Parameters
+    /// ----------
+    /// scenes : sequence of Scene
+    ///     The epochs must be all numbers or all calendar times.
+    /// threads : int, optional
+    ///     Number of threads, 1 to 1024; by default one for each core.
+    /// errors : {"raise", "nan"}, optional
+    ///     What becomes of members that cannot be solved, as for `Ensemble`.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     Calendar epochs beside numbers; an unknown `errors`; threads outside 1 to 1024.
+    /// TypeError
+    ///     A member that is not a `Scene`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0], span=(0, 10), tolerance=1e-9)
+    /// >>> braked = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0], span=(0, 10), torques=Torque.damping(1e-3))
+    /// >>> ensemble = Ensemble.from_scenes([scene, braked])
+    /// >>> ensemble.attitude(5.0).shape, [plan.method for plan in ensemble.plans]
+    /// ((2, 4), ['closed', 'integrated'])
+    #[staticmethod]
+    #[pyo3(signature = (scenes, *, threads=None, errors="raise"))]
+    fn from_scenes(scenes: &Bound<'_, PyAny>, threads: Option<&Bound<'_, PyAny>>, errors: &str) -> PyResult<Self> {
+        let threads = threads.map(|value| whole_number("threads", value, 1, MAX_THREADS, Kind::Input)).transpose()?;
+        let on_error: OnError = errors.parse().map_err(error::propagation)?;
+        let (scenes, calendar) = scenes_of(scenes)?;
+        let ensemble = andoyer_propagate::Ensemble::from_scenes(scenes, on_error);
+        let ensemble = ensemble.and_then(|ensemble| asked(ensemble, None, None, threads));
+        ensemble.map(|ensemble| Self(ensemble, calendar)).map_err(error::propagation)
+    }
+
+    /// The scene of every member, a list. With ``errors="nan"`` the scene of a member that is not a valid body or state is None.
+    ///
+    /// Examples
+    /// --------
+    /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [0.1, 0.2, 1.0], tolerance=1e-9)
+    /// >>> ensemble.scenes[1].body.moments, ensemble.scenes[1].tolerance
+    /// (array([1. , 2. , 2.5]), 1e-09)
+    #[getter]
+    fn scenes(&self, py: Python<'_>) -> PyResult<Vec<Option<Scene>>> {
+        let scene = |index: usize| match self.0.scene(index) {
+            Ok(scene) => Ok(Some(Scene { calendar: self.calendar(index), ..scene.into() })),
+            Err(_) if self.0.asked_on_error() == OnError::Nan => Ok(None),
+            Err(problem) => Err(error::propagation(problem)),
+        };
+        py.check_signals()?;
+        (0..self.0.len()).map(scene).collect()
+    }
+
+    /// The torques beside the gravity gradient on all members, a tuple.
+    #[getter]
+    fn torques<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        torque::tuple(py, self.0.asked_torques())
+    }
+
+    /// The level asked for: "auto", "full", "second-order", "moving" or "paper".
+    #[getter]
+    fn level(&self) -> String {
+        self.0.asked_level().to_string()
     }
 
     /// The moments about body axes 1, 2, 3: a read-only array, shape (m, 3). If tensors were given, they are the principal moments, as `Body.moments`.
@@ -409,7 +484,7 @@ impl Ensemble {
         self.text()
     }
 
-    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        self.arguments(py)
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        self.reduced(py)
     }
 }

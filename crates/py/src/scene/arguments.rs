@@ -117,7 +117,7 @@ pub(crate) fn disturbing_bodies(value: &Bound<'_, PyAny>) -> PyResult<Vec<Distur
     members.map(|member| member.and_then(|member| one(&member).ok_or_else(|| not_an_orbit(&member)))).collect()
 }
 
-pub(super) fn disturbing_body<'py>(py: Python<'py>, body: &DisturbingBody) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn disturbing_body<'py>(py: Python<'py>, body: &DisturbingBody) -> PyResult<Bound<'py, PyAny>> {
     match body {
         DisturbingBody::Orbit(orbit) => Ok(Bound::new(py, Orbit(*orbit))?.into_any()),
         DisturbingBody::Tabulated(table) => Ok(Bound::new(py, TabulatedOrbit(table.clone()))?.into_any()),
