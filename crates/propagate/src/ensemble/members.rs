@@ -43,7 +43,7 @@ pub struct Ensemble {
     pub(super) on_error: OnError,
     pub(super) options: Options,
     /// The scenes of [`Ensemble::from_scenes`], one for each member, or none. Where there are scenes, `options` has what they have in common.
-    pub(super) scenes: Vec<Scene>,
+    pub(super) scenes: Vec<Result<Scene, Error>>,
     pub(super) kept: Kept,
 }
 

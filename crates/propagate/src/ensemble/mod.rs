@@ -5,6 +5,7 @@
 //! one by one by theory, or integrated together in lanes (`integration`). Their motions are kept, up to [`KEPT_MEMORY`]; the motion of another
 //! member lives while its rows are written. Every bad member is found before any is computed, and the error names the first with its index.
 
+mod distribution;
 mod kept;
 mod members;
 mod motions;
@@ -15,6 +16,7 @@ mod run;
 mod scenes;
 
 pub use crate::outcome::Outcome;
+pub use distribution::Tumbling;
 pub use kept::KEPT_MEMORY;
 pub use members::Ensemble;
 pub use on_error::OnError;

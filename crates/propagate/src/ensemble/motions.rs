@@ -68,7 +68,8 @@ impl Ensemble {
     /// Whether the motion of a member is kept: it takes some 100 times as long to solve if a torque acts or it is integrated.
     pub(super) fn is_kept(&self, member: usize) -> bool {
         let (method, torques) = match self.scenes.get(member) {
-            Some(scene) => (scene.asked_method(), scene.asked_torques()),
+            Some(Ok(scene)) => (scene.asked_method(), scene.asked_torques()),
+            Some(Err(_)) => return false,
             None => (self.asked_method(), self.asked_torques()),
         };
         !self.orbits_of(member).is_empty() || !torques.is_empty() || method == Method::Integrated

@@ -197,7 +197,7 @@ impl Ensemble {
 
     fn each_member_scene(mut self, change: impl Fn(usize, Scene) -> Scene) -> Self {
         let scenes = std::mem::take(&mut self.scenes).into_iter().enumerate();
-        self.scenes = scenes.map(|(index, scene)| change(index, scene)).collect();
+        self.scenes = scenes.map(|(index, scene)| scene.map(|scene| change(index, scene))).collect();
         self.kept = Kept::default();
         self
     }

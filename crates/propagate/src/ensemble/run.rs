@@ -62,7 +62,7 @@ impl Ensemble {
 /// How the members of an ensemble are evaluated.
 #[derive(Clone, Copy, Debug)]
 pub struct MembersRun<'a> {
-    ensemble: &'a Ensemble,
+    pub(super) ensemble: &'a Ensemble,
     since_epoch: bool,
     stop: &'a AtomicBool,
 }
@@ -241,7 +241,7 @@ impl<'a> MembersRun<'a> {
     /// - Else as [`MembersRun::attitudes_into`].
     pub fn periods_into(&self, out: &mut [[Periods; 3]]) -> Result<Outcome, Error> {
         let none = Periods { precession: f64::NAN, rotation: f64::NAN };
-        self.values_into(out, [none; 3], |motion| Convention::ALL.map(|convention| motion.periods_of(convention)))
+        self.values_into(out, [none; 3], |motion| Ok(Convention::ALL.map(|convention| motion.periods_of(convention))))
     }
 
     /// E/E0 of each member, as [`Motion::energy_ratio`].
@@ -249,19 +249,19 @@ impl<'a> MembersRun<'a> {
     /// # Errors
     /// As [`MembersRun::periods_into`].
     pub fn energy_ratios_into(&self, out: &mut [f64]) -> Result<Outcome, Error> {
-        self.values_into(out, f64::NAN, Motion::energy_ratio)
+        self.values_into(out, f64::NAN, |motion| Ok(motion.energy_ratio()))
     }
 
     /// One value for each member, or `none` for one that has no motion.
-    fn values_into<T: Copy + Send + Sync>(
+    pub(super) fn values_into<T: Copy + Send + Sync>(
         &self,
         out: &mut [T],
         none: T,
-        value: impl Fn(&Motion) -> T + Sync,
+        value: impl Fn(&Motion) -> Result<T, Error> + Sync,
     ) -> Result<Outcome, Error> {
         length("out", out.len(), self.ensemble.len())?;
         let evaluate = |motion: &Motion, _: usize, slot: &mut &mut T| {
-            **slot = value(motion);
+            **slot = value(motion)?;
             Ok(())
         };
         self.each_member(out.iter_mut(), evaluate, |slot| **slot = none)
@@ -274,7 +274,7 @@ impl<'a> MembersRun<'a> {
         on_threads(ensemble.asked_threads(), ensemble.len() / ensemble.block(), work)
     }
 
-    fn batch(&self, motion: &'a Motion) -> Batch<'a> {
+    pub(super) fn batch<'m>(&'m self, motion: &'m Motion) -> Batch<'m> {
         let batch = motion.batch().until(self.stop);
         if self.since_epoch { batch.since_epoch() } else { batch }
     }

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::input::scene::Scene;
+use crate::input::state::State;
 use crate::simd::halt::GOING;
 
 use super::members::Ensemble;
@@ -19,7 +20,8 @@ impl Ensemble {
     /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?;
     /// let scene = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).span(0.0, 10.0).tolerance(1e-9);
     /// let braked = scene.clone().torques([Torque::constant([0.0, 0.0, -1e-3])?]);
-    /// let ensemble = Ensemble::from_scenes(vec![scene.clone(), scene.orbit(Orbit::new(0.1, 0.2)?), braked], OnError::Raise)?;
+    /// let scenes = vec![Ok(scene.clone()), Ok(scene.orbit(Orbit::new(0.1, 0.2)?)), Ok(braked)];
+    /// let ensemble = Ensemble::from_scenes(scenes, OnError::Raise)?;
     /// let mut attitudes = [[0.0; 4]; 6];
     /// ensemble.attitudes_into(&[0.0, 10.0], &mut attitudes)?;
     /// assert!(attitudes[1] != attitudes[3] && attitudes[3] != attitudes[5]);
@@ -27,29 +29,35 @@ impl Ensemble {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Member`] with what [`Scene::validate`] says of a scene, unless such members are to be NaN.
-    pub fn from_scenes(scenes: Vec<Scene>, on_error: OnError) -> Result<Self, Error> {
-        let attitudes = scenes.iter().map(|scene| scene.state().attitude.coords.into()).collect();
-        let rates = scenes.iter().map(|scene| scene.state().angular_velocity.into()).collect();
-        let mut columns = if scenes.iter().any(|scene| scene.body().has_tensor()) {
-            let tensors = scenes.iter().map(|scene| scene.body().inertia()).collect();
-            Self::from_inertia_or(tensors, attitudes, rates, OnError::Nan, &GOING)?
+    /// [`Error::Member`] with the error in the place of a scene, or with what [`Scene::validate`] says of it, unless such members are to be NaN.
+    pub fn from_scenes(scenes: Vec<Result<Scene, Error>>, on_error: OnError) -> Result<Self, Error> {
+        let state = |scene: &Result<Scene, Error>| scene.as_ref().ok().map(|scene| *scene.state());
+        let attitude = |state: State| state.attitude.coords.into();
+        let attitudes = scenes.iter().map(|scene| state(scene).map_or([f64::NAN; 4], attitude)).collect();
+        let rates = |state: State| state.angular_velocity.into();
+        let rates = scenes.iter().map(|scene| state(scene).map_or([f64::NAN; 3], rates)).collect();
+        let valid = || scenes.iter().flatten();
+        let columns = if valid().any(|scene| scene.body().has_tensor()) {
+            let none = [[f64::NAN; 3]; 3];
+            let tensors = scenes.iter().map(|scene| scene.as_ref().map_or(none, |scene| scene.body().inertia()));
+            Self::from_inertia_or(tensors.collect(), attitudes, rates, OnError::Nan, &GOING)?
         } else {
-            let moments = scenes.iter().map(|scene| scene.body().moments()).collect();
-            Self::new_or(moments, attitudes, rates, OnError::Nan, &GOING)?
+            let none = [f64::NAN; 3];
+            let moments = scenes.iter().map(|scene| scene.as_ref().map_or(none, |scene| scene.body().moments()));
+            Self::new_or(moments.collect(), attitudes, rates, OnError::Nan, &GOING)?
         };
-        if !scenes.is_empty() {
-            columns = columns.epochs(scenes.iter().map(|scene| scene.state().epoch).collect())?;
-            columns = columns.orbits(scenes.iter().map(|scene| scene.asked_disturbing().to_vec()).collect())?;
-        }
-        let mut ensemble = columns.in_common(&scenes);
+        let epochs: Vec<f64> = scenes.iter().map(|scene| state(scene).map_or(0.0, |state| state.epoch)).collect();
+        let orbits =
+            scenes.iter().map(|scene| scene.as_ref().map_or(Vec::new(), |scene| scene.asked_disturbing().to_vec()));
+        let columns = if scenes.is_empty() { columns } else { columns.epochs(epochs)?.orbits(orbits.collect())? };
+        let mut ensemble = columns.in_common(&valid().collect::<Vec<_>>());
         (ensemble.scenes, ensemble.on_error) = (scenes, on_error);
         ensemble.raise_bad_members(&GOING)?;
         Ok(ensemble)
     }
 
     /// With the options that all scenes have.
-    fn in_common(mut self, scenes: &[Scene]) -> Self {
+    fn in_common(mut self, scenes: &[&Scene]) -> Self {
         let Some((first, others)) = scenes.split_first() else { return self };
         if others.iter().all(|scene| scene.asked_tolerance() == first.asked_tolerance()) {
             self = self.tolerance(first.asked_tolerance());
@@ -72,7 +80,7 @@ impl Ensemble {
     }
 
     /// The scenes of [`Ensemble::from_scenes`]; none for an ensemble from columns.
-    pub fn asked_scenes(&self) -> &[Scene] {
+    pub fn asked_scenes(&self) -> &[Result<Scene, Error>] {
         &self.scenes
     }
 
@@ -82,7 +90,7 @@ impl Ensemble {
     /// What [`Body::new`](crate::Body::new), [`State::new`](crate::State::new) and [`Scene::validate`] say of it.
     pub fn scene(&self, index: usize) -> Result<Scene, Error> {
         match self.scenes.get(index) {
-            Some(scene) => scene.validated(),
+            Some(scene) => scene.as_ref().map_err(Error::clone)?.validated(),
             None => self.scene_of_columns(index),
         }
     }

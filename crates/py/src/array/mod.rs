@@ -162,6 +162,11 @@ impl<const N: usize, Item: Copy> MemberRows<N, Item> {
         }
     }
 
+    /// The single row, or all.
+    pub(crate) fn rows(self) -> Vec<[Item; N]> {
+        self.repeated(1)
+    }
+
     /// All rows, or the single row repeated `members` times.
     pub(crate) fn repeated(self, members: usize) -> Vec<[Item; N]> {
         match self {

@@ -69,8 +69,10 @@ fn not_an_orbit(name: &str, value: &Bound<'_, PyAny>, or: &str) -> PyErr {
     PyTypeError::new_err(format!("{name} must be an Orbit or {or}, not {}", kind(value)))
 }
 
+type SceneOrError = Result<andoyer_propagate::Scene, andoyer_propagate::Error>;
+
 /// The scenes of `Ensemble.from_scenes`, and their calendar epochs.
-pub(super) fn scenes_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<andoyer_propagate::Scene>, Vec<Calendar>)> {
+pub(super) fn scenes_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<SceneOrError>, Vec<Calendar>)> {
     let refused = |name: &str, value: &Bound<'_, PyAny>| {
         PyTypeError::new_err(format!("{name} must be an andoyer.Scene, not {}", kind(value)))
     };
@@ -79,7 +81,7 @@ pub(super) fn scenes_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<andoyer_propa
         let member = member?;
         let scene = member.cast::<Scene>().map_err(|_| refused(&format!("scenes[{index}]"), &member))?.get();
         calendar.extend(scene.calendar);
-        scenes.push(scene.scene.clone());
+        scenes.push(Ok(scene.scene.clone()));
         if !calendar.is_empty() && calendar.len() < scenes.len() {
             let text = format!("scenes[{index}] and another one: one has a calendar epoch, the other a number");
             return Err(error::input("scenes", index, "epochs of one kind", text));

@@ -32,6 +32,25 @@ impl Bodies {
         }
     }
 
+    /// Bodies, or principal moments.
+    pub(super) fn any(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let is_body = |value: &Bound<'_, PyAny>| value.is_instance_of::<Body>();
+        let first = value.get_item(0);
+        if is_body(value) || first.is_ok_and(|first| is_body(&first)) {
+            Self::of_classes(value)
+        } else {
+            Self::new(value)
+        }
+    }
+
+    /// Each body, or the one of all.
+    pub(super) fn each(self) -> Vec<Result<andoyer_propagate::Body, Propagation>> {
+        match self {
+            Self::Moments(rows) => rows.rows().into_iter().map(andoyer_propagate::Body::new).collect(),
+            Self::Tensors(rows) => rows.rows().into_iter().map(andoyer_propagate::Body::from_inertia).collect(),
+        }
+    }
+
     /// A `Body` for all members, or one for each.
     fn of_classes(value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let one = |value: &Bound<'_, PyAny>| value.cast::<Body>().ok().map(|body| body.get().body.clone());

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::ensemble::{MAX_THREADS, OnError};
 use andoyer_propagate::error::Kind;
-use andoyer_propagate::options::{Convention, Level, Method};
+use andoyer_propagate::options::{Level, Method};
 use andoyer_propagate::periods::Periods;
 use andoyer_series::threads::alone;
 use numpy::{IntoPyArray, PyArray1, PyArrayDyn, PyArrayMethods};
@@ -28,9 +28,12 @@ use crate::values::immutable;
 mod arguments;
 mod bodies;
 mod copies;
+mod distribution;
 mod evaluate;
+mod from_periods;
 use arguments::{asked, epochs_of, orbits_given, refused, scenes_of, tolerance};
 use bodies::Bodies;
+use from_periods::Clones;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// Number of members above which the construction of an ensemble, which checks each member, counts as a long call.
@@ -129,6 +132,85 @@ impl Ensemble {
         let ensemble = andoyer_propagate::Ensemble::from_scenes(scenes, on_error);
         let ensemble = ensemble.and_then(|ensemble| asked(ensemble, None, None, threads));
         ensemble.map(|ensemble| Self(ensemble, calendar)).map_err(error::propagation)
+    }
+
+    /// An ensemble of torque-free bodies that tumble with these periods, each as `Scene.from_periods` has it: clones of a tumbler whose periods, pole and phases are uncertain.
+    ///
+    /// Parameters
+    /// ----------
+    /// bodies : Body or sequence of m Body, or array_like, shape (3,) or (m, 3)
+    ///     Bodies, or principal moments.
+    /// precession, rotation : float or array_like, shape (m,)
+    ///     P_φ and P_ψ, in units of time.
+    /// mode : {"short-axis", "long-axis"}, or a sequence of m of them, optional
+    /// directions : array_like, shape (3,), (2,), (m, 3) or (m, 2), optional
+    ///     Directions of the angular momentum: inertial components of any length, or (longitude, latitude) in rad; by default inertial axis 3. Of two members (2, 2) are two pairs.
+    /// phases : array_like, shape (2,) or (m, 2), optional
+    ///     Phases of P_ψ and P_φ at the epoch, in turns; by default 0.
+    /// convention : {"extremal-axis", "long-axis", "short-axis"}, optional
+    ///     The axis of the periods.
+    /// epoch : float or Time, optional
+    ///     Time of all states.
+    /// orbit, torques, tolerance, method, level, span : optional
+    ///     Those of all scenes, as for `Scene`.
+    /// threads, errors : optional
+    ///     As for `Ensemble`. With ``errors="nan"`` members that no body can have are NaN, and `Ensemble.errors` counts them.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A member that no body can have, with its number; arguments with different numbers of rows, or none with an axis of members.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import numpy as np
+    /// >>> body = Body([1, 3.0836, 3.235])
+    /// >>> clones = Ensemble.from_periods(body, 27.38 + 0.1 * np.arange(3), 263.0, "short-axis", (4.8, -1.48), phases=(0.2, 0.3))
+    /// >>> clones.periods["extremal-axis"].precession.round(9)
+    /// array([27.38, 27.48, 27.58])
+    #[staticmethod]
+    #[pyo3(signature = (bodies, precession, rotation, mode=None, directions=None, *, phases=None, convention="extremal-axis", epoch=None, threads=None, errors="raise", **options))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn from_periods(
+        bodies: &Bound<'_, PyAny>,
+        precession: &Bound<'_, PyAny>,
+        rotation: &Bound<'_, PyAny>,
+        mode: Option<&Bound<'_, PyAny>>,
+        directions: Option<&Bound<'_, PyAny>>,
+        phases: Option<&Bound<'_, PyAny>>,
+        convention: &str,
+        epoch: Option<&Bound<'_, PyAny>>,
+        threads: Option<&Bound<'_, PyAny>>,
+        errors: &str,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let clones = Clones::new(bodies, [precession, rotation], mode, directions, phases)?;
+        clones.ensemble((convention, epoch), (threads, errors), options)
+    }
+
+    /// How all members tumble at a time: the free motions from their states then.
+    ///
+    /// Parameters
+    /// ----------
+    /// time : float, or a Time where the epochs are Time objects
+    ///
+    /// Returns
+    /// -------
+    /// Distribution
+    ///     Modes, periods, E/E0, angular momenta, and which members have changed their mode; quantiles and shares; `andoyer.plot.distribution` draws it.
+    ///
+    /// Raises
+    /// ------
+    /// TypeError
+    ///     Several times.
+    ///
+    /// Examples
+    /// --------
+    /// >>> ensemble = Ensemble([1, 1.5, 2], [0, 0, 0, 1], [[0.1, 0.2, 1], [1, 0.2, 0.1]], torques=Torque.damping(0.02), span=(0, 40), tolerance=1e-9)
+    /// >>> ensemble.after(40.0).share()
+    /// {'long-axis': 0.5, 'short-axis': 0.5}
+    fn after<'py>(&self, py: Python<'py>, time: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        self.distribution(py, time)
     }
 
     /// The scene of every member, a list. With ``errors="nan"`` the scene of a member that is not a valid body or state is None.
@@ -371,14 +453,7 @@ impl Ensemble {
     fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let mut rows = vec![[Periods { precession: 0.0, rotation: 0.0 }; 3]; self.0.len()];
         self.values(py, |run| run.periods_into(&mut rows))?;
-        mean::periods(
-            py,
-            "PeriodsOfMembers",
-            Convention::ALL.iter().enumerate().map(|(place, convention)| {
-                let column = |of: fn(&Periods) -> f64| PyArray1::from_iter(py, rows.iter().map(|row| of(&row[place])));
-                (*convention, (column(|pair| pair.precession), column(|pair| pair.rotation)))
-            }),
-        )
+        mean::of_members(py, rows.iter())
     }
 
     /// E/E0 of all members, shape (m,): the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular momentum (theory §5).
