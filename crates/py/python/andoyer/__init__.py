@@ -52,12 +52,14 @@ from andoyer._core import (
     normalize,
     separatrix_action,
 )
+from andoyer.distribution import Distribution
 from andoyer.mean import Frequencies, Periods, PeriodsOfMembers
 
 __all__ = [
     "BirkhoffNormalForm",
     "Body",
     "CassiniState",
+    "Distribution",
     "Domain",
     "Driven",
     "DrivenNormalForm",

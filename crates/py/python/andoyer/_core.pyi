@@ -10,6 +10,7 @@ from pandas import DataFrame  # type: ignore[import-untyped, import-not-found, u
 from scipy.spatial.transform import Rotation  # type: ignore[import-untyped, import-not-found, unused-ignore]
 from xarray import Dataset  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
+from andoyer.distribution import Distribution
 from andoyer.mean import Frequencies, Periods, PeriodsOfMembers
 
 _Array: TypeAlias = NDArray[np.float64]
@@ -627,19 +628,53 @@ class Ensemble:
 
     def __new__(
         cls,
-        moments: ArrayLike,
+        moments: ArrayLike | None,
         attitudes: ArrayLike | Rotation,
         angular_velocities: ArrayLike,
         *,
+        bodies: Body | Iterable[Body] | None = None,
         epochs: ArrayLike | Any | None = None,
-        orbits: Orbit | Iterable[Orbit | None] | None = None,
+        orbit: Orbit | TabulatedOrbit | Iterable[Orbit | TabulatedOrbit] | None = None,
+        orbits: Orbit | TabulatedOrbit | Iterable[Orbit | TabulatedOrbit | Iterable[Orbit | TabulatedOrbit] | None] | None = None,
+        torques: Torque | Iterable[Torque] | None = None,
         tolerance: float = 1e-12,
         method: Literal["auto", "series", "closed", "integrated", "libration"] = "auto",
+        level: Literal["auto", "full", "second-order", "moving", "paper"] = "auto",
         span: ArrayLike | Any | None = None,
         threads: int | None = None,
         errors: Literal["raise", "nan"] = "raise",
         scalar_first: bool = False,
     ) -> Ensemble: ...
+    @staticmethod
+    def from_scenes(scenes: Iterable[Scene], *, threads: int | None = None, errors: Literal["raise", "nan"] = "raise") -> Ensemble:
+        """An ensemble of scenes of any kind: free bodies, one or several orbits, tables, torques, locked rotation, each with its own options."""
+    @staticmethod
+    def from_periods(
+        bodies: Body | Iterable[Body] | ArrayLike,
+        precession: ArrayLike,
+        rotation: ArrayLike,
+        mode: Literal["short-axis", "long-axis"] | Iterable[Literal["short-axis", "long-axis"]] | None = None,
+        directions: ArrayLike | None = None,
+        *,
+        phases: ArrayLike | None = None,
+        convention: Literal["extremal-axis", "long-axis", "short-axis"] = "extremal-axis",
+        epoch: float | Any | None = None,
+        threads: int | None = None,
+        errors: Literal["raise", "nan"] = "raise",
+        **options: Any,
+    ) -> Ensemble:
+        """An ensemble of torque-free bodies that tumble with these periods, each as `Scene.from_periods` has it: clones of a tumbler whose periods, pole and phases are uncertain."""
+    def after(self, time: float | Any) -> Distribution:
+        """How all members tumble at a time: the free motions from their states then."""
+    @property
+    def scenes(self) -> list[Scene | None]:
+        """The scene of every member, a list. With ``errors="nan"`` the scene of a member that is not a valid body or state is None."""
+    @property
+    def torques(self) -> tuple[Torque, ...]:
+        """The torques beside the gravity gradient on all members, a tuple."""
+    @property
+    def level(self) -> str:
+        """The level asked for: "auto", "full", "second-order", "moving" or "paper"."""
     def at(self, times: ArrayLike, *, scalar_first: bool = False) -> Samples:
         """Evaluates attitudes and angular velocities of all members in one pass."""
     def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:

@@ -23,6 +23,7 @@ from andoyer.output.span import within_span
 from andoyer.plot._compared import components, difference, sampled_rates
 from andoyer.plot._diagrams import axes_or_new as _axes
 from andoyer.plot._diagrams import domain, error_by_order, work_precision
+from andoyer.plot._distribution import distribution
 from andoyer.plot._drawing import near_pole, on_ellipsoid, plane
 from andoyer.plot._drawing import surface as draw_surface
 from andoyer.plot._film import film
@@ -48,6 +49,7 @@ __all__ = [
     "animate",
     "components",
     "difference",
+    "distribution",
     "domain",
     "error_by_order",
     "libration_spectrum",
