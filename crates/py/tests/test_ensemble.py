@@ -271,7 +271,8 @@ BAD_ARGUMENTS = {
     "one mean motion": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"orbits": 1e-3}, TypeError, "orbits must be an Orbit or a sequence"),
     "a span that runs backwards": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"span": (1, 0)}, andoyer.InputError, "span"),
     "another method": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"method": "euler"}, andoyer.InputError, 'method = "euler"'),
-    "a level": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"level": "full"}, TypeError, "level"),
+    "an averaging": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"averaging": "spin"}, TypeError, "averaging"),
+    "a level": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"level": "third"}, andoyer.InputError, "level"),
 }
 
 
