@@ -39,7 +39,7 @@ def test_names_users_rely_on_are_there(owner):
 
 
 def test_all_lists_everything_public_and_nothing_else():
-    modules = {"cli", "fit", "interop", "jax", "mean", "output", "plot", "selftest"}
+    modules = {"cli", "distribution", "fit", "interop", "jax", "mean", "output", "plot", "selftest"}
     assert public(andoyer.__all__) == public(vars(andoyer)) - modules
     assert andoyer.__all__ == sorted(andoyer.__all__) and andoyer.__version__ == core.__version__
 

@@ -928,7 +928,7 @@ class DrivenNormalForm:
         """The driven phases: {name: (rate, phase at time 0)}."""
     @property
     def frequencies(self) -> tuple[float | complex, ...]:
-        """Floquet's exponents on the branch that continues the frequencies without drive: ω of a centre, negative if its energy is negative; iλ of a saddle."""
+        """Floquet's exponents on the branch of the rotation number: ω of a centre, the mean rate at which a real solution turns, negative if it turns backwards; iλ of a saddle."""
     @property
     def kinds(self) -> tuple[Literal["elliptic", "hyperbolic"], ...]:
         """The kind of every mode: "elliptic" or "hyperbolic"."""

@@ -1,7 +1,7 @@
 //! The work of a periodic motion and its frame, counted before it is done: multiplications of two floats, and what takes as long.
 //!
-//! A second of one core does about 1.2e9 of them, so that [`MOST_WORK`] takes at most 2 s. The constants are CPU times of single steps, on grids of 9 to 9,409 times, over the time of a
-//! multiplication in the steps of two phases: 1.0e9 to 1.6e9 a second there, 1e9 to 4e9 with one phase. The count is the same on every machine.
+//! The constants are the times of single steps, on grids of 9 to 9,409 times, over the time of a multiplication in the steps of two phases; those of one phase are up to three times as
+//! fast. [`MOST_WORK`] is a few seconds of one core at most. The count is the same on every machine.
 
 use super::grid::Grid;
 use super::hamiltonian::DrivenHamiltonian;
@@ -33,7 +33,7 @@ pub(super) fn of_taylor_step(n: usize, order: usize, harmonics: usize) -> f64 {
 /// The products of matrices in a step towards a frame: most are in the exponential.
 const PRODUCTS: f64 = 12.0;
 
-/// A step towards a frame on the smallest grids takes 80 µs, and a product of two matrices of two rows 25 ns.
+/// What a step towards a frame takes on the smallest grids, and a product of two matrices of two rows, in multiplications.
 const FRAME: f64 = 1e5;
 const SMALL_PRODUCT: f64 = 20.0;
 
