@@ -316,10 +316,10 @@ def test_long_tables_tell_how_far_they_are(motion, tmp_path):
 def test_names_are_bold_on_terminals_alone(monkeypatch):
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.delenv("NO_COLOR", raising=False)
-    assert _terminal.named("mode", Terminal()) == "\x1b[1mmode         \x1b[0m"
-    assert _terminal.named("mode", io.StringIO()) == "mode         "
+    assert _terminal.label("mode", Terminal()) == "\x1b[1mmode         \x1b[0m"
+    assert _terminal.label("mode", io.StringIO()) == "mode         "
     monkeypatch.setenv("NO_COLOR", "1")
-    assert _terminal.named("mode", Terminal()) == "mode         "
+    assert _terminal.label("mode", Terminal()) == "mode         "
 
 
 @pytest.mark.parametrize("command", ["", *EXAMPLES])
