@@ -165,7 +165,7 @@ fn orbits_are_one_for_all_or_one_for_each_and_what_they_cannot_disturb_is_named(
     assert!(matches!(wrong, Err(Error::Length { argument: "orbits", found: 4, expected: 9 })));
     let one = ensemble.clone().orbits(vec![orbits[0]]).expect("one for all");
     assert_eq!(one, ensemble.clone().orbits(vec![orbits[0]; 9]).expect("nine equal ones"));
-    assert_eq!(ensemble, ensemble.clone().orbits(vec![None; 9]).expect("none"));
+    assert_eq!(ensemble, ensemble.clone().orbits(vec![None::<Orbit>; 9]).expect("none"));
     assert_ne!(one, ensemble);
     let mut strong = orbits;
     strong[4] = Some(Orbit::new(0.9, 0.0).expect("an orbit"));
