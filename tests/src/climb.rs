@@ -4,10 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use andoyer_propagate::nalgebra::UnitQuaternion;
 use andoyer_propagate::options::{Averaging, Level};
-use andoyer_propagate::periods::Frequencies;
 
 use crate::disturbed::{Disturbed, Measured};
-use crate::mean_wobble::without_mean_wobble;
+use crate::tuned::{nearly_without_wobble, next_to_a_sphere, next_to_resonance};
 
 /// Uniform numbers in [0, 1) from a linear congruential generator (Knuth's multiplier): the same on every machine.
 #[derive(Clone, Debug)]
@@ -81,6 +80,8 @@ pub enum Family {
     WithinAnOrbit,
     /// A harmonic j of the orbit and a term for which |Ω + jn| times the span is 1e-4 to 2.
     NearResonance,
+    /// Moments that differ by 1e-7 to 1e-3 under a strong attraction, in half of the scenes on a circle.
+    NextToSphere,
     /// A mean wobble of 1e-9 to 1e-3, or of 0: on circles, on ellipses, and in first order on orbits that precess, under two bodies, and by the paper's levels.
     MeanWobbleZero,
 }
@@ -98,7 +99,7 @@ pub const FAMILIES: [Family; 8] = [
 ];
 
 /// Families in most of which the error is known to exceed the bound, by 1.2 to 3.3 times.
-pub const FURTHER_FAMILIES: [Family; 11] = [
+pub const FURTHER_FAMILIES: [Family; 12] = [
     Family::BeforeTheEpoch,
     Family::FastOrbit,
     Family::TwoBodies,
@@ -110,6 +111,7 @@ pub const FURTHER_FAMILIES: [Family; 11] = [
     Family::WithinAnOrbit,
     Family::NearResonance,
     Family::MeanWobbleZero,
+    Family::NextToSphere,
 ];
 
 impl Family {
@@ -135,6 +137,7 @@ impl Family {
             Self::WithinAnOrbit => "within an orbit",
             Self::NearResonance => "near resonance",
             Self::MeanWobbleZero => "mean wobble zero",
+            Self::NextToSphere => "next to a sphere",
         }
     }
 
@@ -266,7 +269,7 @@ impl Family {
     }
 
     /// What the coordinates beyond the first add to a scene: the beginning of its span, precession of the orbit, further bodies, the tolerance.
-    fn extended(self, scene: Disturbed, extra: &[f64]) -> Disturbed {
+    pub(crate) fn extended(self, scene: Disturbed, extra: &[f64]) -> Disturbed {
         let Disturbed { orbit: [n, ..], span, .. } = scene;
         let body = |part: &[f64]| {
             let mean_motion = n * power(-1.0, 0.3, part[0]);
@@ -285,62 +288,18 @@ impl Family {
             }
             Self::LooseTolerance => Disturbed { tolerance: power(-6.0, -2.0, extra[0]), ..scene },
             Self::NearResonance => next_to_resonance(scene, extra),
+            Self::NextToSphere => next_to_a_sphere(scene, extra),
             Self::MeanWobbleZero => nearly_without_wobble(scene, extra),
             _ => scene,
         }
     }
 }
 
-/// The scene with a mean wobble next to 0: `part` chooses the kind of the orbit, the level of first order, and the wobble.
-fn nearly_without_wobble(scene: Disturbed, part: &[f64]) -> Disturbed {
-    let refined = scene.level == Level::SecondOrder || scene.averaging == Averaging::Orbit;
-    let scene = match (refined, (4.0 * part[6]) as usize) {
-        (true, 0 | 1) | (false, 0) => {
-            let [mean_motion, _, pericentre, inclination, node, argument] = scene.orbit;
-            Disturbed { orbit: [mean_motion, 0.0, pericentre, inclination, node, argument], ..scene }
-        }
-        (false, 1) => Family::Precessing.extended(scene, part),
-        (false, 2) => Family::TwoBodies.extended(scene, part),
-        _ => scene,
-    };
-    let level = match (refined, (4.0 * part[7]) as usize) {
-        (false, 0) => Level::Paper,
-        (false, 1) => Level::Moving,
-        _ => scene.level,
-    };
-    let scene = Disturbed { level, ..scene };
-    let axis = if scene.rates[0] == 0.0 { 2 } else { 0 };
-    let wobble = if part[8] < 0.1 { 0.0 } else { power(-9.0, -3.0, part[8]) };
-    let (across, along) = (TAU * part[9]).sin_cos();
-    without_mean_wobble(scene, axis, [across, along].map(|way| wobble * way)).unwrap_or(scene)
-}
-
-/// The scene with another mean motion n, for which |Ω + jn| of a term times the span is 1e-4 to 2: `part` chooses the term, j and Ω + jn.
-fn next_to_resonance(scene: Disturbed, part: &[f64]) -> Disturbed {
-    let [n, eccentricity, pericentre, inclination, node, argument] = scene.orbit;
-    let Ok(motion) = scene.free().and_then(|scene| scene.solve()) else { return scene };
-    let Frequencies { anomaly, longitude } = motion.frequencies();
-    let size = power(-4.0, 0.3, part[1]) / scene.span.abs();
-    let x = if part[2] < 0.5 { size } else { -size };
-    // Harmonic j is smaller than the first by about e^(−j (artanh η − η)).
-    let eta = (1.0 - eccentricity * eccentricity).sqrt();
-    let highest = (8.0 / (eta.atanh() - eta)).min(80.0) as i32;
-    let mut motions = Vec::new();
-    for (h, m) in [(2, 0), (1, 1), (-1, 1), (-3, 1), (0, 2), (2, 2), (-2, 2), (-4, 2)] {
-        let omega = f64::from(h) * anomaly + f64::from(m) * longitude;
-        motions.extend(
-            (1..=highest).map(|j| (x - omega).abs() / f64::from(j)).filter(|tuned| (0.5 * n..2.0 * n).contains(tuned)),
-        );
-    }
-    let Some(&tuned) = motions.get((part[0] * motions.len() as f64) as usize) else { return scene };
-    Disturbed { orbit: [tuned, eccentricity, pericentre * n / tuned, inclination, node, argument], ..scene }
-}
-
 fn mix(low: f64, high: f64, part: f64) -> f64 {
     low + (high - low) * part
 }
 
-fn power(low: f64, high: f64, part: f64) -> f64 {
+pub(crate) fn power(low: f64, high: f64, part: f64) -> f64 {
     10.0_f64.powf(mix(low, high, part))
 }
 

@@ -27,6 +27,8 @@ pub struct Disturbed {
     pub rates: [f64; 3],
     /// Mean motion, eccentricity, time of the pericentre, inclination, node, argument of the pericentre.
     pub orbit: [f64; 6],
+    /// Attraction of the disturbing body, GM/a³, over the square of the mean motion.
+    pub attraction: f64,
     /// Rates of the node and of the argument of the pericentre.
     pub secular: [f64; 2],
     /// Further disturbing bodies: the same elements, and the attraction.
@@ -68,7 +70,20 @@ impl Disturbed {
     pub fn new(moments: [f64; 3], attitude: [f64; 4], rates: [f64; 3], orbit: [f64; 6], span: f64) -> Self {
         let (averaging, level) = (Averaging::Auto, Level::Full);
         let (secular, further, from, tolerance) = ([0.0; 2], [None; 2], 0.0, 1e-8);
-        Self { moments, attitude, rates, orbit, secular, further, from, span, averaging, level, tolerance }
+        Self {
+            moments,
+            attitude,
+            rates,
+            orbit,
+            attraction: 1.0,
+            secular,
+            further,
+            from,
+            span,
+            averaging,
+            level,
+            tolerance,
+        }
     }
 
     /// The orbit of the disturbing body.
@@ -86,7 +101,9 @@ impl Disturbed {
     /// That of the element that is out of range.
     pub fn disturbers(&self) -> Result<Vec<Orbit>, Error> {
         let [node, pericentre] = self.secular;
-        let mut orbits = vec![self.disturber()?.secular_rates(node, pericentre)?];
+        let first = self.disturber()?.secular_rates(node, pericentre)?;
+        let attraction = self.attraction * self.orbit[0] * self.orbit[0];
+        let mut orbits = vec![if self.attraction == 1.0 { first } else { first.attraction(attraction)? }];
         for (orbit, attraction) in self.further.into_iter().flatten() {
             orbits.push(Self { orbit, ..*self }.disturber()?.attraction(attraction)?);
         }

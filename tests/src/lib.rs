@@ -4,6 +4,7 @@ pub mod climb;
 pub mod disturbed;
 pub mod integration;
 pub mod mean_wobble;
+mod tuned;
 
 use andoyer_propagate::Orbit;
 use serde_json::Value;

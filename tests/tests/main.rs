@@ -19,6 +19,7 @@ mod libration;
 mod libration_orders;
 mod limits;
 mod motion_code;
+mod near_spheres;
 mod numeric;
 mod observed;
 mod oracle;

@@ -245,10 +245,11 @@ fn climbs(
         let solved: usize = found.iter().map(|summit| summit.solved).sum();
         let Some(worst) = found.into_iter().max_by(|a, b| a.ratio().total_cmp(&b.ratio())) else { continue };
         let mode = if long_axis { "long" } else { "short" };
-        let Disturbed { moments, attitude, rates, orbit, secular, further, from, span, tolerance, .. } = worst.scene;
+        let Disturbed { moments, attitude, rates, orbit, attraction, secular, further, from, span, tolerance, .. } =
+            worst.scene;
         writeln!(
             out,
-            "{},{mode},{averaging},{level},{starts},{solved},{:.3e},{:.3e},{:.3},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {secular:?} {further:?} {from} {span} {tolerance}\"",
+            "{},{mode},{averaging},{level},{starts},{solved},{:.3e},{:.3e},{:.3},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {attraction} {secular:?} {further:?} {from} {span} {tolerance}\"",
             family.name(),
             worst.measured.error,
             worst.measured.bound,
@@ -365,10 +366,10 @@ fn safety(out: &mut impl Write, numbers: (usize, u64), only: Option<&str>) -> Re
     random_scenes(numbers, only, |name, long_axis, scene| {
         let Ok(measured) = scene.measured() else { return Ok(()) };
         let Measured { error, bound, effect, lost } = measured;
-        let Disturbed { moments, attitude, rates, orbit, span, averaging, level, .. } = scene;
+        let Disturbed { moments, attitude, rates, orbit, attraction, span, averaging, level, .. } = scene;
         writeln!(
             out,
-            "{name},{},{averaging},{level},{:.2e},{:.3},{error:.3e},{bound:.3e},{effect:.2e},{lost:.1e},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {span}\"",
+            "{name},{},{averaging},{level},{:.2e},{:.3},{error:.3e},{bound:.3e},{effect:.2e},{lost:.1e},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {attraction} {span}\"",
             if long_axis { "long" } else { "short" },
             orbit[0],
             orbit[1],

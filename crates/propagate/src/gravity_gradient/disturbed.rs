@@ -40,6 +40,8 @@ pub(crate) struct DisturbedMotion {
     pub(crate) slow: AveragedMotion,
     /// The constant part of p e^(−iℓ′): √σ, and what corrects the error of first order at the epoch.
     pub(crate) circle: C64,
+    /// Rate of √σ, the real part of p e^(−iℓ′), by K2, in the user's unit.
+    pub(crate) widening: f64,
     /// The constant part of M: the mean M, and what corrects the error of first order at the epoch.
     pub(crate) momentum: f64,
     pub(crate) anomaly: Phase,
@@ -81,6 +83,7 @@ impl DisturbedMotion {
             anomaly: Phase::new(anomaly_rate, mean.p.arg()),
             half_longitude: Phase::new(longitude_rate * 0.5.into(), 0.5 * mean.longitude),
             circle: mean.p.norm().into(),
+            widening: averages.steady().action / (2.0 * inertia.root() * inertia.momentum) * unit,
             momentum: inertia.momentum,
             drifts: if level == Level::SecondOrder { [1.0; 2] } else { factors },
             secular: averages.secular(&inertia, &mean).map(|rate| rate * unit),

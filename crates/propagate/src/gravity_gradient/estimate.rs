@@ -55,6 +55,7 @@ pub(crate) fn errors(
         + EPOCH * response.of_actions(left, duration)
         + sum(|corrections| corrections.resonant)
         + sum(|corrections| corrections.dropped)
+        + averages.steady().unsteady
         + omitted.sum::<f64>()
         + rounding;
     [spin, ORBIT * averages.over_orbit_error(&response, inertia, &orbits[0], level)]

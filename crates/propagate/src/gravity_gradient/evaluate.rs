@@ -59,7 +59,8 @@ impl DisturbedMotion {
         for body in &self.bodies[1..] {
             change = change.plus(elapsed.0.simd().vectorize(OtherBody { body, mean: &mean, elapsed }));
         }
-        let relative = ComplexLanes { re: change.p.re + all(self.circle.re), im: change.p.im + all(self.circle.im) };
+        let widened = elapsed.0.mul_add(all(self.widening), all(self.circle.re));
+        let relative = ComplexLanes { re: change.p.re + widened, im: change.p.im + all(self.circle.im) };
         let [x, y] = change.rotation;
         let zero = all(0.0);
         Osculating {

@@ -1,8 +1,8 @@
 //! The body: its inertia tensor in the invariable frame as Fourier series in ℓ′ and y′, and its attitude by the series of a and b, to all orders in J (theory §9).
 //!
-//! T = Q diag(A, B, C) Qᵀ is sampled over a quarter turn of ℓ′ on the closed form at y′ = 0: T33, i t1 e^(−iy′), t2 e^(−2iy′). The parameters a and b of theory
-//! §8 need no normalization here. They are the theta series themselves, which have a few harmonics where the tensor has tens. Time reversal makes all
-//! coefficients real, and ℓ′ → ℓ′ + π leaves only the odd or only the even ones. A harmonic h is σ^(|h|/2) times a function that is analytic in σ at 0. This
+//! T = Q diag(A, B, C) Qᵀ is sampled over a quarter turn of ℓ′ on the closed form at y′ = 0: T33, i t1 e^(−iy′), t2 e^(−2iy′). The samples are those of
+//! T − C, so that next to a sphere rounding is small beside the differences of the moments, which alone make a torque. The parameters a and b of theory §8 need
+//! no normalization here. They are the theta series themselves, which have a few harmonics where the tensor has tens. Time reversal makes all coefficients real, and ℓ′ → ℓ′ + π leaves only the odd or only the even ones. A harmonic h is σ^(|h|/2) times a function that is analytic in σ at 0. This
 //! function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are differences of fourth order in sin²J. Their
 //! step is 0.2 % of the distance to the separatrix (sin²J = 1), and at most 40 % of sin²J. A smaller step at small J would amplify rounding. The relative error
 //! is 1e-10.
@@ -101,6 +101,8 @@ impl Inertia {
         };
         let part = |part: usize| Harmonics((part * COUNT..(part + 1) * COUNT).map(jet).collect());
         let [anomaly, longitude] = [jet(RATES[1]), jet(RATES[2])];
+        let mut axial = part(0);
+        axial.0[HIGHEST][0] += polhode.moments[2]; // of which the members have nothing
         Self {
             momentum,
             sigma,
@@ -110,7 +112,7 @@ impl Inertia {
             rates: exact,
             rate_slopes: [anomaly[1], longitude[1]],
             rate_curvatures: [anomaly[2], longitude[2]],
-            tensor: [part(0), part(1), part(2)],
+            tensor: [axial, part(1), part(2)],
             pair: [part(3), part(4)],
             untilted: [polhode.moments[2], 0.25 * (polhode.moments[0] - polhode.moments[1])],
         }
@@ -190,12 +192,14 @@ fn square_of(polhode: &Polhode, sigma: f64, near: Option<[f64; 2]>) -> f64 {
 static CIRCLE: LazyLock<Vec<(f64, f64)>> =
     LazyLock::new(|| (0..SAMPLES[1]).map(|k| (TAU * k as f64 / SAMPLES[1] as f64).sin_cos()).collect());
 
-/// Harmonics and σ of one free motion, and the differences of its two rates from those of a near motion.
+/// Harmonics of T − C, of a and of b, and σ of one free motion, and the differences of its two rates from those of a near motion.
 fn member(polhode: &Polhode, square: f64, momentum: f64, near: &[DoubleDouble; 2]) -> Vec<f64> {
     let tilted = polhode.tilted(square, momentum);
     let (sigma, rates) = rates(&tilted);
     let theta = tilted.invariants.theta;
     let closed = ClosedForm::new(&tilted, &theta);
+    let third = tilted.moments[2];
+    let apart = tilted.moments.map(|moment| moment - third);
     let [few, many] = SAMPLES;
     // Harmonic h falls like q^(h/2) with the nome q. Half of the harmonics and samples are enough where the others are rounding.
     let nome = (-PI * theta.conjugate / theta.quarter).exp();
@@ -205,7 +209,7 @@ fn member(polhode: &Polhode, square: f64, momentum: f64, near: &[DoubleDouble; 2
     for k in 0..=samples / 4 {
         // A period contains an end point twice and an inner point four times.
         let weight = if k == 0 || k == samples / 4 { 2.0 } else { 4.0 } / samples as f64;
-        let functions = sample(&closed, TAU * k as f64 / samples as f64, tilted.moments).map(|f| f * weight);
+        let functions = sample(&closed, TAU * k as f64 / samples as f64, apart).map(|f| f * weight);
         for ((function, series), odd) in functions.iter().zip(sums.chunks_exact_mut(COUNT)).zip(ODD) {
             for h in (usize::from(odd)..=samples / 4).step_by(2) {
                 let (sine, cosine) = CIRCLE[stride * h * k % many];
@@ -226,12 +230,13 @@ fn member(polhode: &Polhode, square: f64, momentum: f64, near: &[DoubleDouble; 2
             }
         }
     }
-    // The samples are accurate to 1e-16 of the largest, which has a size of about 1, so smaller sums are set to 0. σ^(h/2) may be small: near B = C the other
-    // factor grows like σ_sep^(−h/2).
-    let noise = 4.0 * f64::EPSILON;
+    // The samples are accurate to 1e-16 of the largest, so smaller sums are set to 0. The largest is a difference of moments for the tensor, and about 1 for a and b.
+    // σ^(h/2) may be small: near B = C the other factor grows like σ_sep^(−h/2).
+    let largest = apart.iter().fold(0.0_f64, |most, moment| most.max(moment.abs()));
+    let noises = [largest, largest, largest, 1.0, 1.0].map(|size| 4.0 * f64::EPSILON * size);
     let root = sigma.sqrt();
     let powers: Vec<f64> = std::iter::successors(Some(1.0), |power| Some(power * root)).take(HIGHEST + 1).collect();
-    for series in sums.chunks_exact_mut(COUNT) {
+    for (series, noise) in sums.chunks_exact_mut(COUNT).zip(noises) {
         for (index, sum) in series.iter_mut().enumerate() {
             *sum = if sum.abs() < noise { 0.0 } else { *sum / powers[index.abs_diff(HIGHEST)] };
         }
@@ -241,7 +246,7 @@ fn member(polhode: &Polhode, square: f64, momentum: f64, near: &[DoubleDouble; 2
     sums
 }
 
-/// T33, i t1, t2 at ℓ′ and y′ = 0.
+/// T33, i t1, t2 at ℓ′ and y′ = 0 of a body with these moments.
 fn sample(closed: &ClosedForm, angle: f64, moments: [f64; 3]) -> [C64; 3] {
     let [a, b] = closed.series.pair(angle);
     // The rows of Q are the axes of the invariable frame in body components, from the quaternion (x, y, z, w) = (Re b, Im b, Im a, Re a).

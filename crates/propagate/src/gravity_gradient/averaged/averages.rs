@@ -55,6 +55,11 @@ impl Averages {
         [self.slope, -inertia.sigma * self.slope]
     }
 
+    /// The constant rates by the part of K2 that the closed form omits.
+    pub(crate) fn steady(&self) -> SteadyRates {
+        self.torques[0].second.as_ref().map(|hamiltonian| hamiltonian.steady).unwrap_or_default()
+    }
+
     /// The rates of ℓ′ and y′ in the orbit average.
     pub(crate) fn secular(&self, inertia: &Inertia, mean: &Mean) -> [f64; 2] {
         let axis = mean.frame * Vector3::z();

@@ -84,7 +84,8 @@ impl Corrections {
         }
         let regimes = Regimes::new(terms, inertia, disturbance, whole);
         let chosen: Vec<_> = terms.all.iter().map(|term| (term, regimes.of(term))).collect();
-        let effects = chosen.iter().map(|(term, regime)| (*term, regimes.uncorrected(term, regime)));
+        let moved = regimes.all_moved(&chosen);
+        let effects = chosen.iter().map(|(term, regime)| (*term, regimes.uncorrected(term, regime, moved)));
         let allowed = disturbance.ledger.refused.max(second_order(whole, &terms.response, disturbance.duration));
         let resonant = regimes.total(effects, allowed)?;
         let mut collected = Collected::default();

@@ -11,15 +11,18 @@
 //! file adds (jn)²/(Ω² (Ω + jn)) for terms with sums over time derivatives, and all of G for slow terms, and pairs of different terms ([`super::k2_slow_pairs`]). A harmonic whose solution vanishes at the epoch has no part in K2. The derivatives are taken at the epoch. The component of
 //! ∂K2/∂k along the orbit's normal n̂ is kept along n̂; the other component, of the order of e², is constant in inertial axes.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::k2_slow_pairs::{reciprocal, slow_pairs};
+use super::k2_slow_pairs::{SlowAngle, reciprocal, slow_pairs};
 use crate::gravity_gradient::constants::{CUTOFF, NEAREST_IN_K2};
 use crate::gravity_gradient::disturbance::Disturbance;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::inertia::Inertia;
-use crate::gravity_gradient::terms::term::Term;
+use crate::gravity_gradient::terms::divisors::Divisors;
+use crate::gravity_gradient::terms::term::{Sensitivity, Term};
 use crate::numerics::C64;
 use crate::orbit::hansen::OrbitSeries;
 use crate::orbit::tensor::{about_first, about_second, products_at};
@@ -32,6 +35,10 @@ pub(crate) struct SteadyRates {
     pub(crate) force: Vector3<f64>,
     /// What is added to dℓ′/dt and dy′/dt.
     pub(crate) phases: [f64; 2],
+    /// dL/dt.
+    pub(crate) action: f64,
+    /// Error of the attitude over the span, because the rates are not constant \[rad\].
+    pub(crate) unsteady: f64,
 }
 
 impl SteadyRates {
@@ -53,14 +60,17 @@ impl SteadyRates {
     }
 }
 
-/// The derivatives of the omitted part of ⟨K2⟩ with respect to σ and M, and by X₁ and X₂.
+/// The omitted part of ⟨K2⟩ and its derivatives with respect to σ and M, and by X₁ and X₂.
 #[derive(Default)]
 pub(crate) struct Remainder {
-    #[cfg(test)]
     pub(crate) value: f64,
     by_sigma: f64,
     by_momentum: f64,
     turned: [f64; 2],
+    /// −∂K2/∂ℓ′.
+    action: f64,
+    /// As in [`SteadyRates`].
+    unsteady: f64,
     /// Γ².
     scale: f64,
 }
@@ -89,36 +99,55 @@ impl Remainder {
             }))
         };
         let (highest, scale) = (highest(series), disturbance.strength().powi(2));
-        let mut sums = Self { scale, ..Self::default() };
+        let empty = || Self { scale, ..Self::default() };
+        let (mut sums, mut slow) = (empty(), BTreeMap::new());
         for multiple in 0..=2 {
             let harmonics: Vec<_> = (-highest..=highest).map(|j| (j, of_harmonic(multiple, j))).collect();
             for (term, divisors) in terms.iter().filter(|(term, _)| term.multiple == multiple) {
-                let omega = term.frequency;
                 for (j, [still, turned @ ..]) in &harmonics {
-                    let step = f64::from(*j) * disturbance.mean_motion;
-                    let of_frequency = match divisors {
-                        Some(divisors) if divisors.resonant == Some(*j) && divisors.slow => continue,
-                        Some(divisors) if divisors.resonant == Some(*j) => closed_form(omega, step).map(|part| -part),
-                        // One divisor for all parts of the harmonic. The error is part of that of the shift.
-                        Some(divisors) if divisors.slow => reciprocal(divisors.at(*j, 2 * j.signum())),
-                        Some(divisors) if *j != 0 => beyond(omega, step, divisors.at(*j, 2 * j.signum())),
-                        None if *j != 0 && (omega + step).abs() > NEAREST_IN_K2 * disturbance.mean_motion => {
-                            beyond(omega, step, omega + step)
-                        }
-                        _ => continue,
-                    };
-                    sums.add((*still, *turned), shape(term, inertia, of_frequency));
+                    if let Some(of_frequency) = omitted(term, *divisors, (*j, disturbance.mean_motion)) {
+                        sums.add((*still, *turned), shape(term, inertia, of_frequency));
+                    }
                 }
             }
-            for pair in slow_pairs(&terms, multiple, inertia, (mean.p.arg(), disturbance.duration)) {
+            for pair in slow_pairs(&terms, multiple, inertia, disturbance.duration) {
+                let part = slow.entry(pair.apart).or_insert_with(empty);
                 for (j, [still, turned @ ..]) in &harmonics {
                     if let Some(shape) = pair.shape(inertia, (*j, disturbance.mean_motion)) {
-                        sums.add((*still, *turned), shape);
+                        part.add((*still, *turned), shape);
                     }
                 }
             }
         }
+        sums.add_slow(&slow, inertia, (mean.p.arg(), disturbance.duration));
         sums
+    }
+
+    /// Adds pairs of terms, by |h_a − h_b|, with the factors of their angles. `angle` is ℓ′ at the epoch.
+    fn add_slow(&mut self, slow: &BTreeMap<i32, Self>, inertia: &Inertia, (angle, duration): (f64, f64)) {
+        if slow.is_empty() {
+            return;
+        }
+        let response = Sensitivity::new(inertia);
+        for (&apart, part) in slow {
+            let SlowAngle { factors: [factor, slope], unsteady } = SlowAngle::new(apart, angle, inertia, duration);
+            self.value += factor * part.value;
+            self.by_sigma += factor * part.by_sigma;
+            self.by_momentum += factor * part.by_momentum;
+            self.turned = [0, 1].map(|i| self.turned[i] + factor * part.turned[i]);
+            self.action += slope * part.value;
+            self.unsteady += unsteady * part.turn(apart, inertia, &response) * duration;
+        }
+    }
+
+    /// Largest rate of the attitude by pairs of terms, before the factors of their angle: by the rates of ℓ′, y′, k and L \[rad per unit of time\].
+    fn turn(&self, apart: i32, inertia: &Inertia, response: &Sensitivity) -> f64 {
+        let by_action = self.by_sigma / inertia.momentum;
+        let [first, second] = self.turned;
+        response.visible * by_action.abs()
+            + (self.by_momentum - inertia.sigma * by_action).abs()
+            + first.hypot(second) / inertia.momentum
+            + response.gain * f64::from(apart) * self.value.abs() / (2.0 * inertia.root() * inertia.momentum)
     }
 
     /// Adds a term's or a pair's factors of α and of β, with their derivatives with respect to σ and M, at one harmonic.
@@ -126,10 +155,7 @@ impl Remainder {
         let product = |[a, b]: [f64; 2], [c, d]: [f64; 2]| self.scale * (a * c + b * d);
         let (sigma, momentum) = (product(still, by_sigma), product(still, by_momentum));
         let [first, second] = turned.map(|turned| product(turned, value));
-        #[cfg(test)]
-        {
-            self.value += product(still, value);
-        }
+        self.value += product(still, value);
         self.by_sigma += sigma;
         self.by_momentum += momentum;
         self.turned = [self.turned[0] + first, self.turned[1] + second];
@@ -144,7 +170,8 @@ impl Remainder {
         // ∂K2/∂k across k: the part along n̂ − (k·n̂) k is that of ∂K2/∂k_N.
         let share = if inclined > f64::EPSILON { across.dot(normal) / inclined } else { 0.0 };
         let force = across + pole * (pole.dot(normal) * share);
-        SteadyRates { force, phases: [by_action, self.by_momentum - inertia.sigma * by_action] }
+        let phases = [by_action, self.by_momentum - inertia.sigma * by_action];
+        SteadyRates { force, phases, action: self.action, unsteady: self.unsteady }
     }
 }
 
@@ -184,6 +211,20 @@ fn highest(series: &OrbitSeries) -> i32 {
         .collect();
     let largest = sizes.iter().copied().fold(0.0, f64::max);
     sizes.iter().rposition(|size| *size > CUTOFF.sqrt() * largest).unwrap_or(0) as i32
+}
+
+/// The part of G that the closed form of K2 omits for a term at one harmonic of the orbit, and its derivatives with respect to Ω; `None` where there is none.
+fn omitted(term: &Term, divisors: Option<&Divisors>, (j, mean_motion): (i32, f64)) -> Option<[f64; 3]> {
+    let (omega, step) = (term.frequency, f64::from(j) * mean_motion);
+    match divisors {
+        Some(divisors) if divisors.resonant == Some(j) && divisors.slow => None,
+        Some(divisors) if divisors.resonant == Some(j) => Some(closed_form(omega, step).map(|part| -part)),
+        // One divisor for all parts of the harmonic. The error is part of that of the shift.
+        Some(divisors) if divisors.slow => Some(reciprocal(divisors.at(j, 2 * j.signum()))),
+        Some(divisors) if j != 0 => Some(beyond(omega, step, divisors.at(j, 2 * j.signum()))),
+        None if j != 0 && (omega + step).abs() > NEAREST_IN_K2 * mean_motion => Some(beyond(omega, step, omega + step)),
+        _ => None,
+    }
 }
 
 /// 1/Ω − jn/Ω² and its derivatives with respect to Ω, for a harmonic of frequency jn.

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! with h_b > 0 and any h_a for m = 0. ℓ′ is that of the epoch, ω is the rate of the angle, and the exponential is the complement of the factor of χ₂ in equation (7). A pair of
-//! ⟨D⟩ with W_b counts twice, because its source is {⟨D⟩, W}.
+//! ⟨D⟩ with W_b counts twice, because its source is {⟨D⟩, W}. These pairs alone contain ℓ′: they also change the mean L, at the rate −∂K2/∂ℓ′.
 
 use crate::gravity_gradient::constants::{LOG_CUTOFF, NEAREST_IN_K2};
 use crate::gravity_gradient::inertia::Inertia;
@@ -18,25 +18,53 @@ use crate::gravity_gradient::terms::term::Term;
 /// h, and F with its first two derivatives with respect to σ.
 type PairedAmplitude = (f64, [f64; 3]);
 
-/// A term of the torque, one of W, and the factor cos((h_a − h_b) ℓ′) e^(−ω² span²/4).
+/// A term of the torque and one of W.
 pub(crate) struct SlowPair<'a> {
     torque: PairedAmplitude,
     wave: PairedAmplitude,
     /// The term of W and its exact divisors, if it has these.
     pub(crate) term: (&'a Term, Option<&'a Divisors>),
-    factor: f64,
+    /// 2 for a pair of ⟨D⟩, otherwise 1.
+    weight: f64,
+    /// |h_a − h_b|.
+    pub(crate) apart: i32,
 }
 
-/// The pairs among terms with one m. `angle` is ℓ′ at the epoch.
+/// What the angle (h_a − h_b) ℓ′ does to a pair within the span.
+pub(crate) struct SlowAngle {
+    /// cos((h_a − h_b) ℓ′) e^(−ω² span²/4), and its derivative with respect to −ℓ′.
+    pub(crate) factors: [f64; 2],
+    /// Largest error of the constant rates, over the change by the largest rate within the span: ζ e^(−ζ²) because the angle turns, and (1 − e^(−ζ²))/ζ by
+    /// χ₂, with ζ = ½ω span.
+    pub(crate) unsteady: f64,
+}
+
+impl SlowAngle {
+    /// From |h_a − h_b|, ℓ′ at the epoch and the span.
+    pub(crate) fn new(apart: i32, angle: f64, inertia: &Inertia, duration: f64) -> Self {
+        let apart = f64::from(apart);
+        let (sine, cosine) = (apart * angle).sin_cos();
+        let turn = (apart * half_turn(inertia, duration)).max(f64::MIN_POSITIVE);
+        let stays = (-turn * turn).exp();
+        let unsteady = turn * stays - (-turn * turn).exp_m1() / turn;
+        Self { factors: [cosine * stays, apart * sine * stays], unsteady }
+    }
+}
+
+/// Half the turn of ℓ′ within the span.
+fn half_turn(inertia: &Inertia, duration: f64) -> f64 {
+    0.5 * inertia.rates[0].to_f64().abs() * duration
+}
+
+/// The pairs among terms with one m.
 pub(crate) fn slow_pairs<'a>(
     terms: &'a [(Term, Option<&'a Divisors>)],
     multiple: i32,
     inertia: &Inertia,
-    (angle, duration): (f64, f64),
+    duration: f64,
 ) -> Vec<SlowPair<'a>> {
-    let turn = 0.5 * inertia.rates[0].to_f64() * duration;
     // Two h differ by 2 at least.
-    if (2.0 * turn).powi(2) > LOG_CUTOFF {
+    if (2.0 * half_turn(inertia, duration)).powi(2) > LOG_CUTOFF {
         return Vec::new();
     }
     let sigma = inertia.root().powi(2);
@@ -52,16 +80,15 @@ pub(crate) fn slow_pairs<'a>(
     for (term, divisors) in waves {
         let wave = amplitude(term);
         for (torque, weight) in torques.iter().filter(|((h, _), _)| *h != wave.0) {
-            let apart = torque.0 - wave.0;
-            let factor = weight * (apart * angle).cos() * (-(apart * turn).powi(2)).exp();
-            pairs.push(SlowPair { torque: *torque, wave, term: (term, *divisors), factor });
+            let apart = (torque.0 - wave.0).abs() as i32; // two harmonics
+            pairs.push(SlowPair { torque: *torque, wave, term: (term, *divisors), weight: *weight, apart });
         }
     }
     pairs
 }
 
 impl SlowPair<'_> {
-    /// The factors of α and of β for one harmonic of the orbit, and their derivatives with respect to σ and M; `None` where the corrections do not contain the harmonic, or
+    /// The factors of α and of β for one harmonic of the orbit, without those of the angle, and their derivatives with respect to σ and M; `None` where the corrections do not contain the harmonic, or
     /// where its solution vanishes at the epoch.
     pub(crate) fn shape(&self, inertia: &Inertia, (j, mean_motion): (i32, f64)) -> Option<[[f64; 2]; 3]> {
         let (term, divisors) = self.term;
@@ -73,7 +100,7 @@ impl SlowPair<'_> {
         if divisors.is_none() && j != 0 && divisor.abs() <= NEAREST_IN_K2 * mean_motion {
             return None;
         }
-        let [g, g1, g2] = reciprocal(divisor).map(|part| self.factor * part);
+        let [g, g1, g2] = reciprocal(divisor).map(|part| self.weight * part);
         let Inertia { sigma, momentum, .. } = *inertia;
         let m = f64::from(term.multiple);
         let ((a, [f, f1, f2]), (b, [w, w1, w2]), [nu, nu1, nu2]) = (self.torque, self.wave, term.per_momentum);

@@ -145,13 +145,13 @@ impl<'a> Regimes<'a> {
     }
 
     /// The largest turn of the attitude within the span by the part of a term that is not corrected \[rad\]: first the effect of what is left out, which may refuse the
-    /// scene, then the error of the correction of the harmonic nearest to resonance.
-    pub(crate) fn uncorrected(&self, term: &Term, regime: &Regime) -> [f64; 2] {
+    /// scene, then the error of the correction of the harmonic nearest to resonance. `moved` is [`Regimes::all_moved`].
+    pub(crate) fn uncorrected(&self, term: &Term, regime: &Regime, moved: f64) -> [f64; 2] {
         let nearest = self.nearest(term);
         match regime {
             Regime::Exact { resonant: None, .. } => [0.0, self.corrected(term, nearest)],
             Regime::Exact { .. } if self.turned(term, nearest) <= LARGEST_EFFECT => {
-                [0.0, self.epoch_solution_error(term, nearest)]
+                [0.0, self.epoch_solution_error(term, nearest, moved)]
             }
             Regime::Slow => [self.whole(term), 0.0],
             _ => [self.turned(term, nearest), 0.0],
@@ -169,10 +169,35 @@ impl<'a> Regimes<'a> {
         size * (self.shift(term) * duration.min(1.0 / distance) + size * (distance * duration).min(1.0)).min(1.0)
     }
 
-    /// The error of the solution that vanishes at the epoch. Its phase lacks the shift ξ over the whole span, and it is linear in the turn that it makes.
-    fn epoch_solution_error(&self, term: &Term, nearest: Nearest) -> f64 {
-        let turned = self.turned(term, nearest);
-        turned * (self.shift(term) * self.orbit.duration + turned).min(1.0)
+    /// The error of the solution that vanishes at the epoch. Its phase lacks the shift ξ over the whole span, and it is linear in the turn that it makes. The second
+    /// order of the changes π_a and π_b of p and k by two harmonics changes M by at most m π_a π_b and L by h π_a π_b; both grow like t². `moved` is the sum of all π.
+    fn epoch_solution_error(&self, term: &Term, nearest: Nearest, moved: f64) -> f64 {
+        let (turned, duration) = (self.turned(term, nearest), self.orbit.duration);
+        let acting = self.acting(nearest).min(duration);
+        let square = self.moved(term, nearest) * moved;
+        let (h, m) = (f64::from(term.harmonic.abs()), f64::from(term.multiple));
+        let drifting = self.response.of_actions([m * square, h * square], duration - acting / 1.5);
+        turned * (self.shift(term) * duration + turned).min(1.0) + drifting
+    }
+
+    /// The largest change of p and k within the span by all harmonics whose solutions vanish at the epoch.
+    pub(crate) fn all_moved(&self, chosen: &[(&Term, Regime)]) -> f64 {
+        let resonant = chosen.iter().filter(|(_, regime)| matches!(regime, Regime::Exact { resonant: Some(_), .. }));
+        resonant.map(|(term, _)| self.moved(term, self.nearest(term))).sum()
+    }
+
+    /// The largest change of p and k by a harmonic of a term.
+    fn moved(&self, term: &Term, nearest: Nearest) -> f64 {
+        nearest.amplitude * self.acting(nearest) * term.moving
+    }
+
+    /// The time during which a harmonic acts in one sense.
+    fn acting(&self, Nearest { amplitude, distance, .. }: Nearest) -> f64 {
+        let Disturbance { duration, mean_motion, .. } = *self.orbit;
+        let distance = (distance - self.orbit.turning()).max(0.0);
+        // A harmonic of the orbit acts at every passage of the pericentre.
+        let span = duration + if amplitude < 1.0 { TAU / mean_motion } else { 0.0 };
+        if distance * span > 2.0 { 2.0 / distance } else { span }
     }
 
     /// Upper estimate of the shift of a divisor: by the average torque over a part of the orbit, and of second order.
@@ -234,8 +259,8 @@ impl<'a> Regimes<'a> {
 
     /// For a term with exact divisors, the harmonic whose solution vanishes at the epoch, and the size of the change by all others.
     fn exact(&self, term: &Term, nearest: Nearest) -> (Option<i32>, f64) {
-        let resonant =
-            (self.corrected(term, nearest) > self.epoch_solution_error(term, nearest)).then_some(nearest.number);
+        let at_epoch = self.epoch_solution_error(term, nearest, self.moved(term, nearest));
+        let resonant = (self.corrected(term, nearest) > at_epoch).then_some(nearest.number);
         let divisors = self.divisors(term);
         let count = self.orbit.series.as_ref().map_or(0, |series| series.coefficients.len() as i32);
         let others = (1 - count..count).filter(|j| resonant != Some(*j));
@@ -264,19 +289,16 @@ impl<'a> Regimes<'a> {
     }
 
     /// The turn of the attitude by a harmonic of a term: at once, and by the drift that the changes of M and L make.
-    fn turned(&self, term: &Term, Nearest { amplitude, distance, .. }: Nearest) -> f64 {
-        let Disturbance { duration, mean_motion, .. } = *self.orbit;
-        let distance = (distance - self.orbit.turning()).max(0.0);
-        // A harmonic of the orbit acts at every passage of the pericentre.
-        let span = duration + if amplitude < 1.0 { TAU / mean_motion } else { 0.0 };
-        let acting = if distance * span > 2.0 { 2.0 / distance } else { span };
+    fn turned(&self, term: &Term, nearest: Nearest) -> f64 {
+        let (duration, acting) = (self.orbit.duration, self.acting(nearest));
+        let distance = (nearest.distance - self.orbit.turning()).max(0.0);
         // The mean M and L at the epoch may be wrong by half their swing over the span. With exact divisors at the epoch a swing that returns within the span does
         // not make this error.
         let unreturned = if self.orbit.series.is_some() { unreturned(distance, duration) } else { 1.0 };
         let lasting = 0.5 * unreturned * duration + acting;
         let (h, m) = (f64::from(term.harmonic.abs()), f64::from(term.multiple));
         let drifting = self.response.of_actions([m * term.action, h * term.action], lasting);
-        amplitude * acting * (term.rate + drifting)
+        nearest.amplitude * acting * (term.rate + drifting)
     }
 
     /// Truncation error of a sum with `orders` derivatives: the next derivative, and those after it as a geometric series, at most as much again.

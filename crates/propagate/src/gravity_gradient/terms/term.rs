@@ -81,10 +81,12 @@ pub(crate) struct Term {
     pub(crate) frequency: f64,
     /// Ω/M, and its first two derivatives with respect to σ.
     pub(crate) per_momentum: [f64; 3],
-    /// Rate of change of the attitude by the term \[rad per unit of time\]. This and the next two are 0 before [`Term::under`].
+    /// Rate of change of the attitude by the term \[rad per unit of time\]. This and the next three are 0 before [`Term::under`].
     pub(crate) rate: f64,
     /// Rate of change of M or L by the term, over M and over m or h.
     pub(crate) action: f64,
+    /// Largest rate of change of p and of the direction of the angular momentum by the term.
+    pub(crate) moving: f64,
     /// Change of the attitude through ∂Ω/∂σ, times the square of the divisor \[rad per unit of time squared\].
     shift: f64,
 }
@@ -98,7 +100,7 @@ impl Term {
         };
         let per_momentum = rates.map(combined);
         let frequency = inertia.momentum * per_momentum[0];
-        Self { harmonic, multiple, function, frequency, per_momentum, rate: 0.0, action: 0.0, shift: 0.0 }
+        Self { harmonic, multiple, function, frequency, per_momentum, rate: 0.0, action: 0.0, moving: 0.0, shift: 0.0 }
     }
 
     /// The terms with m > 0, and those with m = 0 and h > 0.
@@ -164,12 +166,16 @@ impl Term {
         let degree = self.harmonic.abs();
         let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value };
         let further = root.powi(degree + 1);
-        let by_p = 0.5 * response.gain * (falling + 2.0 * further * slope);
+        let derivative = falling + 2.0 * further * slope;
+        let by_p = 0.5 * response.gain * derivative;
         let rate = scale * (root.powi(degree) * value + by_p);
         let by_sigma = inertia.momentum * self.per_momentum[1];
         let shift = scale * 0.5 * response.gain * further * value * by_sigma.abs();
-        let action = 0.5 * scale * CONTRACTED[self.multiple as usize] * root.powi(degree) * value; // 0 ≤ m ≤ 2
-        (rate > 0.0).then_some(Self { function, rate, action, shift, ..self })
+        let contracted = CONTRACTED[self.multiple as usize]; // 0 ≤ m ≤ 2
+        let action = 0.5 * scale * contracted * root.powi(degree) * value;
+        // A turn about axes 1 and 2 changes a contraction by at most twice its largest size.
+        let moving = 0.25 * scale * contracted * derivative + 2.0 * action;
+        (rate > 0.0).then_some(Self { function, rate, action, moving, shift, ..self })
     }
 
     /// Largest change of the attitude by the term \[rad\].

@@ -111,6 +111,14 @@ fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
         for (exact, difference) in steady.phases.into_iter().zip([by_action, by_momentum]) {
             assert!((exact / difference - 1.0).abs() <= 1e-4, "{exact:e} {difference:e}");
         }
+        let rotated = |by: f64| {
+            let mean = Mean { p: p * C64::from_polar(1.0, by), ..scene.mean };
+            let terms = fast_terms(&inertia, 1e-3, slow_limit(&disturbance));
+            Remainder::new(&inertia, &mean, (&disturbance, &series), (&[], &terms)).value
+        };
+        let by_angle = (rotated(1e-4) - rotated(-1e-4)) / 2e-4;
+        assert!((steady.action + by_angle).abs() <= 1e-6 * value.abs(), "{:e} {by_angle:e}", steady.action);
+        assert_eq!(steady.action != 0.0, duration == 0.0);
         let turned = [Vector3::x(), Vector3::y()].map(|axis| {
             let turn = |by: f64| at(sigma, momentum, &(frame * UnitQuaternion::new(axis * by)));
             (turn(1e-4) - turn(-1e-4)) / 2e-4
