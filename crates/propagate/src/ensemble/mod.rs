@@ -5,6 +5,7 @@
 //! one by one by theory, or integrated together in lanes (`integration`). Their motions are kept, up to [`KEPT_MEMORY`]; the motion of another
 //! member lives while its rows are written. Every bad member is found before any is computed, and the error names the first with its index.
 
+mod asked;
 mod distribution;
 mod kept;
 mod members;

@@ -9,12 +9,12 @@ use andoyer_propagate::{Body, Error, Mode, Scene};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::Ensemble;
 use super::arguments::{asked, orbits_given, tolerance};
 use super::bodies::Bodies;
 use crate::array::{MemberRows, numbers_of, span as span_of};
 use crate::computing::detached;
 use crate::error;
+use crate::foreign::Calendar;
 use crate::order::whole_number;
 use crate::scene::arguments::epoch as epoch_of;
 use crate::torque;
@@ -97,7 +97,7 @@ impl Clones {
         (convention, epoch): (&str, Option<&Bound<'_, PyAny>>),
         (threads, errors): (Option<&Bound<'_, PyAny>>, &str),
         options: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Ensemble> {
+    ) -> PyResult<(andoyer_propagate::Ensemble, Option<Calendar>)> {
         let convention = convention.parse().map_err(error::propagation)?;
         let on_error = errors.parse().map_err(error::propagation)?;
         let threads = threads.map(|value| whole_number("threads", value, 1, MAX_THREADS, Kind::Input)).transpose()?;
@@ -130,7 +130,7 @@ impl Clones {
         }
         let ensemble = asked(ensemble, orbits, None, threads).map_err(error::propagation)?;
         ensemble.validate().map_err(error::propagation)?;
-        Ok(Ensemble(ensemble, calendar.into_iter().collect()))
+        Ok((ensemble, calendar))
     }
 }
 

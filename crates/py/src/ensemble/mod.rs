@@ -185,7 +185,8 @@ impl Ensemble {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let clones = Clones::new(bodies, [precession, rotation], mode, directions, phases)?;
-        clones.ensemble((convention, epoch), (threads, errors), options)
+        let (ensemble, calendar) = clones.ensemble((convention, epoch), (threads, errors), options)?;
+        Ok(Self(ensemble, calendar.into_iter().collect()))
     }
 
     /// How all members tumble at a time: the free motions from their states then.

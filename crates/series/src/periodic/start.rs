@@ -24,7 +24,7 @@ use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
 
 /// A double multiplier 1 or −1, to this distance or to the rounding errors of Φ, the second number times its largest entry, has no Cayley transform that floats diagonalize: Φ is turned
-/// by the third number [rad], which Newton's iteration takes back.
+/// by the third number \[rad\], which Newton's iteration takes back.
 const COINCIDENT: f64 = 1e-6;
 const ROUNDED: f64 = 1e-14;
 const NUDGE: f64 = 1e-5;
