@@ -161,3 +161,13 @@ def test_a_member_that_does_not_reach_the_time_is_counted_out():
         warnings.simplefilter("error")
         found = ensemble.after(20.0)
     assert list(found.errors) == [0] and found.mode[0] == "" and np.isnan(found.momentum[0]) and len(found.share()) == 1
+
+
+def test_a_distribution_is_drawn_by_mode():
+    pytest.importorskip("matplotlib").use("Agg")
+    from andoyer import plot
+
+    ensemble = Ensemble([1, 1.5, 2], [0, 0, 0, 1], [[0.1, 0.2, 1], [1, 0.2, 0.1], [0.2, 0.1, 1]])
+    figure = plot.distribution(ensemble.after(0.0))
+    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["short-axis, 66.7 %", "long-axis, 33.3 %"]
+    assert [len(drawn.get_offsets()) for drawn in figure.axes[1].collections] == [2, 1]

@@ -6,7 +6,7 @@
 >>> later = braked.after(40.0)
 >>> later.share()
 {'short-axis': 0.6666666666666666, 'long-axis': 0.3333333333333333}
->>> later.quantiles(0.5)["momentum"] < 1.5
+>>> bool(later.quantiles(0.5)["momentum"] < 1.5)
 True
 """
 
