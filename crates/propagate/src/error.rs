@@ -211,6 +211,16 @@ andoyer_series::error_table! {
         Torque { argument: &'static str = "The argument.", value: String = "The value as given.", bound: String = "The requirement." }
         => Input, facts(*argument, value, bound);
 
+        /// A number of a material, a size, a state or a time that inner dissipation cannot use.
+        #[error("{argument} = {value}: it must be {bound}", value = Short(*.value))]
+        Dissipation { argument: &'static str = "The argument.", value: f64 = "The value as given.", bound: String = "The requirement." }
+        => Input, facts(*argument, *value, bound);
+
+        /// A body, a material or a motion without inner dissipation, or without a relaxation.
+        #[error("{argument}: {value}: {reason}")]
+        NoDissipation { argument: &'static str = "The argument.", value: String = "What was given.", reason: String = "The reason." }
+        => Input, facts(*argument, value, reason);
+
         /// An unknown level of the gravity-gradient theory.
         #[error("level = {value:?}: it must be \"auto\", \"paper\", \"moving\", \"full\" or \"second-order\"")]
         Level { value: String = "The level as given." } => Input, facts("level", value, "auto, paper, moving, full, second-order");

@@ -28,6 +28,8 @@ mod torque_free;
 
 mod motion;
 
+pub mod dissipation;
+
 #[cfg(feature = "torques")]
 mod gravity_gradient;
 

@@ -14,6 +14,7 @@ mod birkhoff;
 mod body;
 mod cassini;
 mod computing;
+mod dissipation;
 mod domain;
 mod driven;
 mod driven_form;
@@ -24,6 +25,7 @@ mod foreign;
 mod form;
 mod kernel;
 mod libration;
+mod material;
 mod mean;
 mod members;
 mod motion;
@@ -35,6 +37,7 @@ mod order;
 mod partials;
 mod plan;
 mod progress;
+mod relaxation;
 mod samples;
 mod scene;
 mod scene_class;
@@ -55,6 +58,8 @@ mod _core {
     #[pymodule_export]
     use super::computing::_panic;
     #[pymodule_export]
+    use super::dissipation::{Dissipation, LoadHarmonic};
+    #[pymodule_export]
     use super::domain::Domain;
     #[pymodule_export]
     use super::driven::Driven;
@@ -71,6 +76,8 @@ mod _core {
     #[pymodule_export]
     use super::libration::{Libration, LibrationTerm};
     #[pymodule_export]
+    use super::material::Material;
+    #[pymodule_export]
     use super::motion::Motion;
     #[pymodule_export]
     use super::normal_form::{NormalForm, separatrix_action};
@@ -84,6 +91,8 @@ mod _core {
     use super::partials::Partials;
     #[pymodule_export]
     use super::plan::Plan;
+    #[pymodule_export]
+    use super::relaxation::{Relaxation, RelaxedStates};
     #[pymodule_export]
     use super::samples::Samples;
     #[pymodule_export]

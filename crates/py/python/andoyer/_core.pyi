@@ -776,6 +776,145 @@ class NormalForm:
     def __deepcopy__(self, _memo: Any) -> NormalForm: ...
 
 @final
+class Material:
+    """A homogeneous, slightly inelastic material, for `Dissipation`."""
+
+    def __new__(
+        cls,
+        *,
+        density: float,
+        rigidity: float,
+        poisson: float = 0.25,
+        quality: float | None = None,
+        viscosity: float | None = None,
+        loss: Callable[[float], float] | None = None,
+        shear_only: bool = False,
+    ) -> Material: ...
+    @property
+    def density(self) -> float:
+        """The density ϱ, in mass/length³."""
+    @property
+    def rigidity(self) -> float:
+        """The rigidity S, in mass/(length time²)."""
+    @property
+    def poisson(self) -> float:
+        """Poisson's ratio ν."""
+    @property
+    def quality(self) -> float | None:
+        """The quality factor Q, or None."""
+    @property
+    def viscosity(self) -> float | None:
+        """The viscosity η, in mass/(length time), or None."""
+    @property
+    def loss(self) -> Callable[[float], float] | None:
+        """The loss function χ(f), or None."""
+    @property
+    def shear_only(self) -> bool:
+        """True if compression has no loss."""
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
+    def __copy__(self) -> Material: ...
+    def __deepcopy__(self, _memo: Any) -> Material: ...
+
+@final
+class Dissipation:
+    """The inner dissipation of a homogeneous ellipsoid that rotates freely: it loses energy at constant angular momentum, and ends in rotation about its short axis."""
+
+    def __new__(cls, body: Body, radius: ArrayLike | None = None, material: Material | None = None, *, semi_axes: ArrayLike | None = None) -> Dissipation: ...
+    @property
+    def body(self) -> Body:
+        """The body."""
+    @property
+    def material(self) -> Material:
+        """The material."""
+    @property
+    def radius(self) -> float:
+        """The radius of the sphere of the same volume, (R1 R2 R3)^(1/3)."""
+    @property
+    def semi_axes(self) -> _Array:
+        """The semi-axes along body axes 1, 2, 3: a read-only array, shape (3,)."""
+    @property
+    def moments(self) -> _Array:
+        """The moments of the homogeneous ellipsoid about body axes 1, 2, 3, in density × length⁵: a read-only array, shape (3,)."""
+    @property
+    def inertia_response(self) -> _Array:
+        """The change of the inertia tensor in elastic equilibrium, by products of rates: a read-only array, shape (6, 6)."""
+    def compliance(self, scene: Scene | Motion) -> float:
+        """ϱ (M/C)² R1²/S, with the longest semi-axis R1: the relative error of the power by theory of first order in the deformation is of this size."""
+    def power(self, scene: Scene | Motion) -> float:
+        """The loss of energy in the unit of time, averaged over the polhode of the state. It is 0 at rest, in rotation about a principal axis, and on the separatrix."""
+    def rate(self, scene: Scene | Motion) -> float:
+        """dx/dt of x = sin² θ, with θ the largest angle between the angular momentum and the axis of the mode: negative in the short-axis mode, positive in the long-axis mode."""
+    def harmonics(self, scene: Scene | Motion) -> list[LoadHarmonic]:
+        """The harmonics of the load along the polhode, from the first, with their shares of the power, down to 1e-17 of the largest."""
+    def relax(self, scene: Scene | Motion) -> Relaxation:
+        """The relaxation of the free body of a scene: the angle and the energy at any time, before and after."""
+    def age(self, scene: Scene | Motion, start_angle: float, mode: Literal["short-axis", "long-axis"] | None = None) -> float:
+        """The age of the state of a scene: the time since the largest angle between the angular momentum and the axis of a mode was `start_angle`."""
+    def quality_from_age(self, scene: Scene | Motion, age: float, start_angle: float, mode: Literal["short-axis", "long-axis"] | None = None) -> float:
+        """The quality factor with which the state of a scene has this age. Ages are proportional to the product of rigidity and quality factor."""
+    def viscosity_from_age(self, scene: Scene | Motion, age: float, start_angle: float, mode: Literal["short-axis", "long-axis"] | None = None) -> float:
+        """The viscosity of a Maxwell body with which the state of a scene has this age, in mass/(length time). Ages are proportional to it."""
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
+    def __copy__(self) -> Dissipation: ...
+    def __deepcopy__(self, _memo: Any) -> Dissipation: ...
+
+@final
+class LoadHarmonic:
+    """A harmonic of the load along a polhode, from `Dissipation.harmonics`."""
+
+    @property
+    def multiple(self) -> int:
+        """m, the multiple of the rate dℓ′/dt of the polhode. Odd ones load shear with axis 3, even ones the other strains."""
+    @property
+    def frequency(self) -> float:
+        """m dℓ′/dt, in rad per unit of time."""
+    @property
+    def energy(self) -> float:
+        """W_m, the sum over the components of the load of the peak strain energies. The mean energy is half of it."""
+    @property
+    def power(self) -> float:
+        """f χ(f) W_m at the frequency f, the loss of energy in the unit of time."""
+    def __eq__(self, other: object, /) -> bool: ...
+
+@final
+class Relaxation:
+    """The relaxation of a free body at constant angular momentum, from `Dissipation.relax`."""
+
+    def at(self, times: ArrayLike) -> RelaxedStates:
+        """The states at times after that of the scene."""
+    def time_to(self, angle: float, mode: Literal["short-axis", "long-axis"] = "short-axis") -> float:
+        """The time after the state of the scene at which the largest angle between the angular momentum and the axis of a mode is `angle`."""
+    @property
+    def dissipation(self) -> Dissipation:
+        """The dissipation."""
+    @property
+    def scene(self) -> Scene | Motion:
+        """The scene or the motion whose state relaxes."""
+    def __copy__(self) -> Relaxation: ...
+    def __deepcopy__(self, _memo: Any) -> Relaxation: ...
+
+@final
+class RelaxedStates:
+    """States of a relaxation at given times, from `Relaxation.at`. For a scalar time the arrays have no axis."""
+
+    @property
+    def times(self) -> _Array:
+        """The times after the state of the scene, shape (n,)."""
+    @property
+    def mode(self) -> NDArray[np.str_]:
+        """The modes, "long-axis" or "short-axis": an array of texts, shape (n,)."""
+    @property
+    def angle(self) -> _Array:
+        """The largest angle between the angular momentum and the axis of the mode on the polhode, in rad, shape (n,)."""
+    @property
+    def energy_ratio(self) -> _Array:
+        """E/E0, the rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum, shape (n,)."""
+    @property
+    def power(self) -> _Array:
+        """The loss of energy in the unit of time, shape (n,)."""
+    def __len__(self) -> int: ...
+
+@final
 class CassiniState:
     """A Cassini state, from `cassini_states`."""
 

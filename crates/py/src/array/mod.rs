@@ -187,11 +187,16 @@ pub(crate) fn tensors(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Opti
 
 /// `value` as one number or one axis of numbers.
 pub(crate) fn numbers_of(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    shaped(argument, value).map(|(values, _)| values)
+}
+
+/// `value` as one number or one axis of numbers, with its shape.
+pub(crate) fn shaped(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<usize>)> {
     let array = numbers(argument, value)?;
     if array.ndim() > 1 {
         return Err(error::shape(argument, array.shape(), "() or (m,)"));
     }
-    Ok(read(argument, &array)?.as_slice()?.to_vec())
+    Ok((read(argument, &array)?.as_slice()?.to_vec(), array.shape().to_vec()))
 }
 
 /// `value` as vectors: an array_like of shape (n, 3).
