@@ -48,6 +48,8 @@ impl Torque {
 
     /// The torque −Dω, with the angular velocity relative to inertial space.
     ///
+    /// It takes angular momentum from the body. Inner friction does not: see `Dissipation`.
+    ///
     /// Parameters
     /// ----------
     /// damping : float, or array_like of shape (3,) or (3, 3)

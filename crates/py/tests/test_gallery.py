@@ -10,7 +10,7 @@ SCRIPTS = sorted((REPOSITORY / "examples/gallery").glob("*.py"), key=lambda path
 PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
 
 
-def test_there_are_the_nineteen_of_them():
+def test_there_are_the_twenty_of_them():
     assert [path.stem.split("_", 2)[2] for path in SCRIPTS] == [
         "earth_wobble",
         "eros_separatrix",
@@ -31,6 +31,7 @@ def test_there_are_the_nineteen_of_them():
         "locked",
         "dead_satellite",
         "flyby",
+        "relaxation",
     ]
 
 
