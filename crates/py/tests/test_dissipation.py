@@ -228,11 +228,11 @@ def test_order_and_tensor_of_the_body_do_not_matter():
 
 
 def test_deformable_body_without_an_average_loses_this_energy():
-    """Liouville's equations of a Kelvin–Voigt body, G' = G x w, w = (I + dI)^-1 G, dI + t dI' = equilibrium: first order in the compliance."""
+    """Liouville's equations of a Kelvin–Voigt body, G' = G × w, w = (I + dI)^-1 G, dI + t dI' = equilibrium: first order in the compliance."""
     integrate = pytest.importorskip("scipy.integrate")
     axes, lag, x = SHAPES["mild"], 0.3, 0.3
     errors = []
-    for rigidity in (250.0, 1000.0):
+    for rigidity in (100.0, 400.0):
         body = andoyer.Body.ellipsoid(*axes, mass=4 * math.pi / 3 * np.prod(axes))
         made = andoyer.Dissipation(body, axes, andoyer.Material(density=1.0, rigidity=rigidity, poisson=0.5, loss=kelvin_voigt(lag)))
         response, state = made.inertia_response, scene(axes, x)
@@ -245,8 +245,8 @@ def test_deformable_body_without_an_average_loses_this_energy():
             return np.array([w[0] ** 2, w[1] ** 2, w[2] ** 2, w[1] * w[2], w[2] * w[0], w[0] * w[1]])
 
         def flow(_, y, response=response):
-            w = np.linalg.solve(tensor(y[3:]), y[:3])
-            return np.concatenate([np.cross(y[:3], w), (response @ products(w) - y[3:]) / lag])
+            (x1, x2, x3), (w1, w2, w3) = y[:3], (w := np.linalg.solve(tensor(y[3:]), y[:3]))
+            return np.concatenate([[x2 * w3 - x3 * w2, x3 * w1 - x1 * w3, x1 * w2 - x2 * w1], (response @ products(w) - y[3:]) / lag])
 
         def energy(y, inverse=np.linalg.pinv(response, rcond=1e-10)):
             # W = 1/4 dI:p with the products p that would hold dI in equilibrium.
@@ -256,7 +256,7 @@ def test_deformable_body_without_an_average_loses_this_energy():
         period = 2 * math.pi / made.harmonics(state)[0].frequency
         w = state.angular_velocity
         start = np.concatenate([momentum * np.array([0, math.sqrt(x), math.sqrt(1 - x)]), response @ products(w)])
-        turns = np.array([2, 5]) * period
-        y = integrate.solve_ivp(flow, (0, turns[1]), start, method="DOP853", rtol=1e-11, atol=1e-14 / rigidity, t_eval=turns).y
+        turns = np.array([1, 2]) * period
+        y = integrate.solve_ivp(flow, (0, turns[1]), start, method="DOP853", rtol=1e-10, atol=1e-12 / rigidity, t_eval=turns).y
         errors.append((energy(y[:, 0]) - energy(y[:, 1])) / (turns[1] - turns[0]) / made.power(state) - 1)
-    assert abs(errors[1]) < 4e-3 and 3 < errors[0] / errors[1] < 5
+    assert abs(errors[1]) < 1e-2 and 3 < errors[0] / errors[1] < 5, errors

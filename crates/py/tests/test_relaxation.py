@@ -39,13 +39,13 @@ def test_times_are_those_of_the_table(row):
 
 def test_prolate_body_ends_perpendicular_in_finite_time():
     axes = (1.0, 0.5, 0.5)
-    relaxation = dissipation(axes).relax(scene(axes, 0.01, "long-axis"))
+    relaxation = dissipation(axes).relax(scene(axes, 0.3, "long-axis"))
     end = relaxation.time_to(math.pi / 2, "long-axis")
     # dt/dx from the powers, on the side of the end in u = sqrt(1 - x), in which it is smooth.
     nodes, weights = np.polynomial.legendre.leggauss(60)
-    u = math.sqrt(0.99) * (1 + nodes) / 2
+    u = math.sqrt(0.7) * (1 + nodes) / 2
     rates = [dissipation(axes).rate(scene(axes, 1 - v * v, "long-axis", complement=v * v)) for v in u]
-    assert_allclose(end, math.sqrt(0.99) / 2 * np.sum(weights * 2 * u / rates), rtol=1e-11)
+    assert_allclose(end, math.sqrt(0.7) / 2 * np.sum(weights * 2 * u / rates), rtol=1e-11)
     states = relaxation.at([0.999 * end, 2 * end])
     assert list(states.mode) == ["long-axis"] * 2 and states.angle[1] == math.pi / 2 and states.power[1] == 0
     assert_allclose(states.energy_ratio[1], 1, rtol=1e-15)
@@ -91,7 +91,7 @@ def test_state_after_a_time_and_a_time_is_that_after_their_sum(loss):
     made = dissipation(axes, **loss)
     way = made.relax(scene(axes, 0.2, "long-axis"))
     whole = way.time_to(angle(0.01))
-    times = whole * np.linspace(-0.3, 1.2, 16)
+    times = whole * np.linspace(-0.3, 1.2, 7)
     states = way.at(times)
     for time, mode, theta, ratio, power in zip(times, states.mode, states.angle, states.energy_ratio, states.power):
         assert_allclose(way.time_to(theta, mode), time, rtol=1e-11, atol=1e-12 * whole)

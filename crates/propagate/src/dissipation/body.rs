@@ -12,6 +12,9 @@ use crate::input::scene::Scene;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
 
+/// Difference of ratios of moments that is rounding.
+const SAME_RATIO: f64 = 1e-12;
+
 /// One harmonic of the load, from [`Dissipation::harmonics`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadHarmonic {
@@ -260,7 +263,7 @@ impl Dissipation {
     /// The state of a scene of this body.
     pub(super) fn tumbling(&self, scene: &Scene) -> Result<Tumbling, Error> {
         let scene = scene.validated()?;
-        if scene.body().moments() != self.body.moments() {
+        if !proportional(scene.body(), &self.body) {
             let reason = format!("this is the dissipation of a body with the moments {:?}", self.body.moments());
             let value = format!("a body with the moments {:?}", scene.body().moments());
             return Err(Error::NoDissipation { argument: "scene", value, reason });
@@ -279,4 +282,10 @@ impl Dissipation {
         let tumbles = matches!(mode, Mode::ShortAxis | Mode::LongAxis | Mode::Axisymmetric);
         Ok(Tumbling { mean_rate, swing: tumbles.then_some(swing), separatrix: mode == Mode::Separatrix })
     }
+}
+
+/// Whether two bodies have the same ratios of moments.
+fn proportional(one: &Body, other: &Body) -> bool {
+    let [ratios, others] = [one, other].map(|body| body.moments().map(|moment| moment / body.sorted()[2]));
+    ratios.iter().zip(others).all(|(ratio, other)| (ratio - other).abs() <= SAME_RATIO)
 }

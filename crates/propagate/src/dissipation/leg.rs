@@ -1,7 +1,7 @@
 //! The time of one mode's part of a relaxation, as a function of y = ln(x/(1 − x)) (docs/relaxation.md, equation 17).
 //!
 //! |dt/dy| is analytic in |Im y| < π, falls as y e^(−y) towards the separatrix, and is constant to e^y at the other end. On panels it is a sum of Legendre
-//! polynomials from Gauss's rule with 16 points, and its integral has the same coefficients. A panel is halved until its last two terms are below 1e-13 of the first.
+//! polynomials from Gauss's rule with 16 points, and its integral has the same coefficients. A panel is halved until its last two terms are negligible.
 
 use std::f64::consts::PI;
 
@@ -73,9 +73,10 @@ impl Panel {
         Ok(Self { top, half, coefficients, before: 0.0 })
     }
 
-    fn resolved(&self) -> bool {
+    /// Whether the last terms are negligible beside |dt/dy| here, or beside `tail`, that of the exponential end.
+    fn resolved(&self, tail: f64) -> bool {
         let [first, .., before, last] = self.coefficients;
-        before.abs() + last.abs() <= RESOLVED * first
+        before.abs() + last.abs() <= RESOLVED * first.max(tail)
     }
 
     /// The time from `top`, and |dt/dy| there.
@@ -134,10 +135,10 @@ impl Leg {
         let half = 0.5 * (top - BOTTOM) / count;
         let starts = (0..count as u32).rev().map(|k| (top - 2.0 * half * f64::from(k), half, 0));
         let mut open: Vec<(f64, f64, u32)> = starts.collect();
-        let (mut panels, mut whole) = (Vec::new(), 0.0);
+        let (mut panels, mut whole, tail) = (Vec::new(), 0.0, slope(BOTTOM)?);
         while let Some((top, half, halvings)) = open.pop() {
             let panel = Panel::new(&rule, top, half, slope)?;
-            if panel.resolved() || halvings == HALVINGS {
+            if panel.resolved(tail) || halvings == HALVINGS {
                 let length = panel.whole();
                 panels.push(Panel { before: whole, ..panel });
                 whole += length;
@@ -146,7 +147,7 @@ impl Leg {
                 open.push((top, 0.5 * half, halvings + 1));
             }
         }
-        Ok(Self { panels, whole, tail: slope(BOTTOM)? })
+        Ok(Self { panels, whole, tail })
     }
 
     /// The time from the separatrix to y, or back.
