@@ -85,6 +85,19 @@ def test_small_angles_change_exponentially(mode, factor):
         assert_allclose(made.relax(state).at(1e3).angle, 1e-6 * math.exp(500.0 * expected), rtol=1e-9)
 
 
+@pytest.mark.parametrize("mode", ["short-axis", "long-axis"])
+def test_times_between_two_angles_are_integrals_of_the_inverse_rate(mode):
+    """At angles in the middle of the way, where the panels are short."""
+    axes = SHAPES["long"]
+    made = dissipation(axes)
+    relaxation = made.relax(scene(axes, 0.5, mode))
+    nodes, weights = np.polynomial.legendre.leggauss(24)
+    for low, high in ((0.3, 0.37), (0.61, 0.69), (0.8, 0.83)):
+        rates = [made.rate(scene(axes, x, mode)) for x in (low + high) / 2 + (high - low) / 2 * nodes]
+        expected = (high - low) / 2 * np.sum(weights / rates)
+        assert_allclose(relaxation.time_to(angle(high), mode) - relaxation.time_to(angle(low), mode), expected, rtol=2e-12)
+
+
 @pytest.mark.parametrize("loss", [{"quality": 2.0}, {"viscosity": 0.7}, {"loss": lambda f: f / (1 + f * f)}])
 def test_state_after_a_time_and_a_time_is_that_after_their_sum(loss):
     axes = SHAPES["mild"]

@@ -61,7 +61,7 @@ impl Dissipation {
         start_angle: f64,
         mode: Option<Mode>,
     ) -> Result<f64, Error> {
-        self.from_age(Loss::Quality(1.0), scene, age, start_angle, mode)
+        self.trial_ratio(Loss::Quality(1.0), scene, age, start_angle, mode)
     }
 
     /// The viscosity of a Maxwell body with which the state of a scene has this age, as [`Dissipation::quality_from_age`].
@@ -75,12 +75,12 @@ impl Dissipation {
         start_angle: f64,
         mode: Option<Mode>,
     ) -> Result<f64, Error> {
-        self.from_age(Loss::Viscosity(self.material.rigidity()), scene, age, start_angle, mode)
+        self.trial_ratio(Loss::Viscosity(self.material.rigidity()), scene, age, start_angle, mode)
             .map(|ratio| ratio * self.material.rigidity())
     }
 
     /// The age over that with a trial loss.
-    fn from_age(&self, trial: Loss, scene: &Scene, age: f64, start: f64, mode: Option<Mode>) -> Result<f64, Error> {
+    fn trial_ratio(&self, trial: Loss, scene: &Scene, age: f64, start: f64, mode: Option<Mode>) -> Result<f64, Error> {
         positive("age", age)?;
         let mut dissipation = self.clone();
         dissipation.material = self.material.clone().loss(trial)?;
