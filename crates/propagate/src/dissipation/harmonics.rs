@@ -11,6 +11,8 @@ use super::elastic::StrainEnergy;
 
 /// Terms smaller than this fraction of the largest one are dropped.
 const NEGLIGIBLE: f64 = 1e-17;
+/// More harmonics than any polhode has: 2,400 are above this fraction for 1 − x = 1e-200.
+const MOST: u32 = 20_000;
 
 /// A polhode in one of the two modes: x = sin² of the largest angle between G and the axis of the mode, and 1 − x, which is Q1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,7 +123,7 @@ fn series(log_nome: f64, turn: f64, [e23, e31, e12, diagonal]: [f64; 4]) -> Vec<
     let sum: f64 = terms.take_while(|term| *term > 0.1 * NEGLIGIBLE).sum();
     let square = sum * sum;
     let (mut found, mut top) = (Vec::new(), 0.0_f64);
-    for multiple in 1_u32.. {
+    for multiple in 1..=MOST {
         let m = f64::from(multiple);
         // n = (m − 1)/2 for odd m, m/2 − 1 for even m
         let q = power(f64::from((multiple - 1) / 2));
