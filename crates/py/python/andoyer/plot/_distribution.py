@@ -7,7 +7,7 @@ import numpy as np
 from andoyer._extra import extra
 from andoyer._refusal import refusal
 from andoyer.distribution import Distribution
-from andoyer.plot._style import BLUE, GREEN, STYLE, VERMILION
+from andoyer.plot._style import BLUE, GREEN, STYLE, VERMILION, Array
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -40,7 +40,7 @@ def distribution(members: Distribution) -> "Figure":
     with plt.rc_context(STYLE):
         figure, (left, middle, right) = plt.subplots(1, 3, figsize=(12, 4), layout="constrained")
         periods, direction = members.periods["extremal-axis"], members.direction
-        longitude, latitude = np.arctan2(direction[:, 1], direction[:, 0]), np.arcsin(direction[:, 2])
+        longitude, latitude = _longitudes(direction), np.arcsin(np.clip(direction[:, 2], -1, 1))
         for mode, share in members.share().items():
             color, marker = MARKERS.get(mode, OTHERS)
             chosen = members.mode == mode
@@ -56,3 +56,11 @@ def distribution(members: Distribution) -> "Figure":
         changed = int(members.changed.sum())
         figure.suptitle(f"{len(members)} members at {members.time}: {changed} changed their mode", x=0.01, ha="left")
     return figure
+
+
+def _longitudes(direction: Array) -> Array:
+    """Longitudes within half a turn of that of the mean direction, so that a cloud about ±180° is not torn."""
+    mean = np.nanmean(direction, axis=0)
+    middle = np.arctan2(mean[1], mean[0])
+    longitude = np.arctan2(direction[:, 1], direction[:, 0])
+    return middle + np.mod(longitude - middle + np.pi, 2 * np.pi) - np.pi
