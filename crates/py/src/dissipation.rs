@@ -44,7 +44,7 @@ use crate::values::immutable;
 ///
 /// >>> body = Body.ellipsoid(100, 60, 50)
 /// >>> rock = Material(density=2000.0, rigidity=5e9, quality=100.0)      # kg/m³, Pa
-/// >>> scene = Scene.from_periods(body, 8 * 3600, 30 * 3600)
+/// >>> scene = Scene.from_periods(body, 8 * 3600, 40 * 3600)
 /// >>> relaxation = Dissipation(body, 67, rock).relax(scene)
 /// >>> bool(relaxation.time_to(0.1) > 1e8 * 3.156e7)                     # 1e8 years
 /// True

@@ -12,7 +12,7 @@ use super::run::MembersRun;
 
 /// The free motion from the state of a member at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tumbling {
+pub struct TumblingMember {
     /// None for a member that has no motion at the time.
     pub mode: Option<Mode>,
     /// Whether the mode is another one than that of the state at the epoch.
@@ -25,7 +25,7 @@ pub struct Tumbling {
     pub angular_momentum: [f64; 3],
 }
 
-impl Tumbling {
+impl TumblingMember {
     /// Of a member without a motion.
     const NONE: Self = Self {
         mode: None,
@@ -51,18 +51,18 @@ impl MembersRun<'_> {
     ///
     /// # Errors
     /// As [`MembersRun::attitudes_into`].
-    pub fn after(&self, time: f64) -> Result<(Vec<Tumbling>, Outcome), Error> {
-        let mut members = vec![Tumbling::NONE; self.ensemble.len()];
-        let outcome = self.values_into(&mut members, Tumbling::NONE, |motion| self.tumbling(motion, time))?;
+    pub fn after(&self, time: f64) -> Result<(Vec<TumblingMember>, Outcome), Error> {
+        let mut members = vec![TumblingMember::NONE; self.ensemble.len()];
+        let outcome = self.values_into(&mut members, TumblingMember::NONE, |motion| self.tumbling(motion, time))?;
         Ok((members, outcome))
     }
 
-    fn tumbling(&self, motion: &Motion, time: f64) -> Result<Tumbling, Error> {
+    fn tumbling(&self, motion: &Motion, time: f64) -> Result<TumblingMember, Error> {
         let (mut attitude, mut rates) = ([[0.0; 4]], [[0.0; 3]]);
         self.batch(motion).samples_into(&[time], &mut attitude, &mut rates)?;
         let state = State::new(0.0, attitude[0], rates[0])?;
         let free = Scene::new(motion.scene().body().clone(), state).solve()?;
-        Ok(Tumbling {
+        Ok(TumblingMember {
             mode: Some(free.plan().mode()),
             has_changed: free.plan().mode() != motion.plan().mode(),
             periods: Convention::ALL.map(|convention| free.periods_of(convention)),

@@ -17,7 +17,7 @@ mod run;
 mod scenes;
 
 pub use crate::outcome::Outcome;
-pub use distribution::Tumbling;
+pub use distribution::TumblingMember;
 pub use kept::KEPT_MEMORY;
 pub use members::Ensemble;
 pub use on_error::OnError;

@@ -1,6 +1,6 @@
 //! How the members of `andoyer.Ensemble` tumble at one time, as `andoyer.Distribution`.
 
-use andoyer_propagate::ensemble::Tumbling;
+use andoyer_propagate::ensemble::TumblingMember;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -21,7 +21,7 @@ impl Ensemble {
         let after = |stop: &std::sync::atomic::AtomicBool| self.run(since_epoch, stop).after(value);
         let (members, outcome) = interruptible(py, times.long(), error::propagation, after)?;
         error::warn_of_tolerance(py, outcome.missed_tolerance())?;
-        let mode = |member: &Tumbling| member.mode.map_or_else(String::new, |mode| mode.to_string());
+        let mode = |member: &TumblingMember| member.mode.map_or_else(String::new, |mode| mode.to_string());
         let modes: Vec<String> = members.iter().map(mode).collect();
         let errors = PyDict::new(py);
         for (index, problem) in refused(py, outcome) {
@@ -42,6 +42,6 @@ impl Ensemble {
 }
 
 /// The periods by convention.
-fn periods<'py>(py: Python<'py>, members: &[Tumbling]) -> PyResult<Bound<'py, PyDict>> {
+fn periods<'py>(py: Python<'py>, members: &[TumblingMember]) -> PyResult<Bound<'py, PyDict>> {
     mean::of_members(py, members.iter().map(|member| &member.periods))
 }

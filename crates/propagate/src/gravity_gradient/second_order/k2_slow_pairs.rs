@@ -34,8 +34,8 @@ pub(crate) struct SlowPair<'a> {
 pub(crate) struct SlowAngle {
     /// cos((h_a − h_b) ℓ′) e^(−ω² span²/4), and its derivative with respect to −ℓ′.
     pub(crate) factors: [f64; 2],
-    /// Largest error of the constant rates, over the change by the largest rate within the span: ζ e^(−ζ²) because the angle turns, and (1 − e^(−ζ²))/ζ by
-    /// χ₂, with ζ = ½ω span.
+    /// Largest error of the constant rates, over the change by the largest rate within the span: u e^(−u²) because the angle turns, and (1 − e^(−u²))/u by
+    /// χ₂, where u is half the turn of the angle within the span.
     pub(crate) unsteady: f64,
 }
 

@@ -3,11 +3,12 @@
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from andoyer._extra import extra
 from andoyer._refusal import refusal
 from andoyer.distribution import Distribution
-from andoyer.plot._style import BLUE, GREEN, STYLE, VERMILION, Array
+from andoyer.plot._style import BLUE, GREEN, STYLE, VERMILION
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -58,7 +59,7 @@ def distribution(members: Distribution) -> "Figure":
     return figure
 
 
-def _longitudes(direction: Array) -> Array:
+def _longitudes(direction: NDArray[np.float64]) -> NDArray[np.float64]:
     """Longitudes within half a turn of that of the mean direction, so that a cloud about ±180° is not torn."""
     mean = np.nanmean(direction, axis=0)
     middle = np.arctan2(mean[1], mean[0])
