@@ -18,13 +18,14 @@ use crate::values::immutable;
 ///
 /// Examples
 /// --------
+/// >>> import numpy as np
 /// >>> body = Body.ellipsoid(1.0, 0.7, 0.5)
 /// >>> dissipation = Dissipation(body, (1.0, 0.7, 0.5), Material(density=1.0, rigidity=1.0, quality=1.0))
 /// >>> x, (A, B, C) = 0.01, body.moments                                # M/C = 1, sin² of the largest angle 0.01
 /// >>> scene = Scene(body, [0, 0, 0, 1], [C / A * (1 - x) ** 0.5, C / B * x**0.5, 0])
 /// >>> relaxation = dissipation.relax(scene)
-/// >>> round(relaxation.time_to(1.5707963267948966), 9), round(relaxation.time_to(0.1) - 51.4, 1)
-/// (15.2838805, 0.1)
+/// >>> round(relaxation.time_to(np.pi / 2), 6), round(relaxation.time_to(0.1), 3)      # to the separatrix, and to 0.1 rad from the short axis
+/// (15.283881, 51.524)
 /// >>> relaxation.at([0.0, 20.0, 40.0]).mode
 /// array(['long-axis', 'short-axis', 'short-axis'], dtype='<U10')
 #[pyclass(frozen, module = "andoyer")]
