@@ -63,7 +63,7 @@ class Distribution:
     @property
     def momentum(self) -> NDArray[np.float64]:
         """The magnitudes of the angular momenta, shape (m,)."""
-        return np.linalg.norm(self.angular_momentum, axis=1)
+        return np.asarray(np.linalg.norm(self.angular_momentum, axis=1))
 
     @property
     def direction(self) -> NDArray[np.float64]:
@@ -91,10 +91,16 @@ class Distribution:
             "momentum", "energy_ratio", "precession", "rotation". Members without a motion are not counted; infinite periods are the largest.
         """
         periods = self.periods["extremal-axis"]
-        columns = {"momentum": self.momentum, "energy_ratio": self.energy_ratio, "precession": periods.precession, "rotation": periods.rotation}
+        columns: dict[str, NDArray[np.float64]] = {
+            "momentum": self.momentum,
+            "energy_ratio": self.energy_ratio,
+            "precession": periods.precession,
+            "rotation": periods.rotation,
+        }
         solved = self.mode != ""
         # The method takes members, and so never subtracts two infinite periods.
-        return {name: np.quantile(column[solved], q, method="inverted_cdf") for name, column in columns.items()}
+        parts = np.asarray(q, dtype=float)
+        return {name: np.asarray(np.quantile(column[solved], parts, method="inverted_cdf")) for name, column in columns.items()}
 
     def to_pandas(self) -> Any:
         """A pandas DataFrame with a row for each member. This method imports pandas.

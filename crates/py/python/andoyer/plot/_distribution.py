@@ -39,6 +39,7 @@ def distribution(members: Distribution) -> "Figure":
         raise refusal("members", "none with a motion", "at least one", "has no member with a motion at its time")
     plt: Any = extra("matplotlib.pyplot", "andoyer.plot")
     with plt.rc_context(STYLE):
+        figure: Figure
         figure, (left, middle, right) = plt.subplots(1, 3, figsize=(12, 4), layout="constrained")
         periods, direction = members.periods["extremal-axis"], members.direction
         longitude, latitude = _longitudes(direction), np.arcsin(np.clip(direction[:, 2], -1, 1))
@@ -64,4 +65,4 @@ def _longitudes(direction: NDArray[np.float64]) -> NDArray[np.float64]:
     mean = np.nanmean(direction, axis=0)
     middle = np.arctan2(mean[1], mean[0])
     longitude = np.arctan2(direction[:, 1], direction[:, 0])
-    return middle + np.mod(longitude - middle + np.pi, 2 * np.pi) - np.pi
+    return np.asarray(middle + np.mod(longitude - middle + np.pi, 2 * np.pi) - np.pi)
