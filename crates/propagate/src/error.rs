@@ -14,8 +14,8 @@ pub(crate) use duration::duration_in_words;
 #[cfg(all(test, feature = "torques"))]
 pub(crate) use sentences::STEP_BYTES;
 use sentences::{
-    advice, and_others, because, did_you_mean, distance, elsewhere, finite, four_digits, instead_of, rounded_up,
-    setting, slow, too_many, turn, unaveraged,
+    advice, and_others, because, did_you_mean, distance, elsewhere, evolve, finite, four_digits, instead_of,
+    rounded_up, setting, slow, too_many, turn, unaveraged,
 };
 pub use torque_measure::TorqueMeasure;
 
@@ -90,7 +90,7 @@ andoyer_series::error_table! {
         Order { value: usize = "The order as given.", bound: usize = "The highest order." } => Representation, facts("order", *value, *bound);
 
         /// An unknown method.
-        #[error("method = {value:?}: it must be \"auto\", \"series\", \"closed\", \"integrated\" or \"libration\"")]
+        #[error("method = {value:?}: it must be \"auto\", \"series\", \"closed\", \"integrated\" or \"libration\"{}", evolve(.value))]
         Method { value: String = "The method as given." } => Input, facts("method", value, "auto, series, closed, integrated, libration");
 
         /// A scene whose rotation no series about a spin–orbit resonance serves.
@@ -259,6 +259,11 @@ andoyer_series::error_table! {
         #[error("span: it reaches {value} from the epoch, and the averaged equations are solved up to {bound:.6e}", value = Short(*.value))]
         SpanOfBodies { value: f64 = "The time from the epoch to the farther end of the span.", bound: f64 = "The largest time." }
         => Theory, facts("span", *value, *bound);
+
+        /// A rotation that is not fast against its torques, or that has no average.
+        #[error("no average over the rotation holds: {reason} is {}, and must be below {}; integrate (Scene.solve, method = integrated)", four_digits(*.size), four_digits(*.bound))]
+        NotAveraged { reason: &'static str = "What is measured.", size: f64 = "The measured value.", bound: f64 = "Its upper limit." }
+        => Theory, facts("torques", *size, *bound);
 
         /// A mode of motion for which the gravity-gradient theory is not valid.
         #[error("orbit: {}", unaveraged(.mode, *.ratio, *.bound))]

@@ -47,6 +47,9 @@ mod solve;
 #[cfg(feature = "torques")]
 pub mod verification;
 
+#[cfg(feature = "torques")]
+mod evolution;
+
 pub mod partials;
 
 pub mod motion_code;
@@ -107,7 +110,23 @@ pub mod libration_terms {
 
 pub mod torques {
     //! Torques beside the gravity gradient, under which scenes are integrated.
+    #[cfg(feature = "torques")]
+    pub use crate::evolution::facets::{Facet, Finish, Light};
+    #[cfg(feature = "torques")]
+    pub use crate::evolution::obj::Mesh;
+    #[cfg(feature = "torques")]
+    pub use crate::evolution::sphere::SphereRule;
     pub use crate::input::torque::{PolynomialTorque, SourcePath, Torque, TorqueSource};
+}
+
+#[cfg(feature = "torques")]
+pub mod evolutions {
+    //! Weak torques averaged over the rotation: mean rates, and the motion over years to millions of years.
+    pub use crate::evolution::averaged_scene::Evolved;
+    pub use crate::evolution::drift::Drift;
+    pub use crate::evolution::evolve::{Evolution, EvolveOptions};
+    pub use crate::evolution::path::EvolutionEnd;
+    pub use crate::evolution::weakness::EndReason;
 }
 
 pub mod batch {

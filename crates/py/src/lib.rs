@@ -20,6 +20,7 @@ mod driven;
 mod driven_form;
 mod ensemble;
 mod error;
+mod evolution;
 mod expression;
 mod foreign;
 mod form;
@@ -41,6 +42,7 @@ mod relaxation;
 mod samples;
 mod scene;
 mod scene_class;
+mod shape_torque;
 mod tabulated;
 mod torque;
 mod values;
@@ -71,6 +73,8 @@ mod _core {
     use super::error::{
         Error, FileError, InputError, InternalError, RepresentationError, TheoryError, ToleranceWarning,
     };
+    #[pymodule_export]
+    use super::evolution::{Drift, Evolution, EvolutionEnd, EvolvedStates};
     #[pymodule_export]
     use super::kernel::{_clock_code, _frame_code, _write_motion, _write_samples};
     #[pymodule_export]

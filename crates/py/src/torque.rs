@@ -12,6 +12,9 @@ use crate::scene::arguments::kind;
 use crate::tabulated::TabulatedOrbit;
 use crate::values::immutable;
 
+/// The longest torque that is printed as code \[characters\].
+const MOST_WRITTEN: usize = 1000;
+
 /// A torque beside the gravity gradient, in body axes. It is made by one of the class methods below. A scene with torques is integrated: it needs a span.
 ///
 /// Torques are in moment × rate²; a Quantity is converted to SI units, with rates in rad/s. `Motion.angular_momentum` and `Motion.andoyer` include the angular momentum of rotors.
@@ -129,16 +132,18 @@ impl Torque {
         let py = class.py();
         let [sources, powers, distances] =
             [sources, distance_powers, reference_distances].map(|given| given.unwrap_or_else(|| PyDict::new(py)));
-        Self::_polynomial(class, texts, &sources, &powers, &distances)
+        Self::_polynomial(class, texts, &sources, &powers, &distances, 0.0)
     }
 
     #[classmethod]
+    #[pyo3(signature = (texts, sources, distance_powers, reference_distances, truncation=0.0))]
     fn _polynomial(
         _class: &Bound<'_, PyType>,
         texts: &Bound<'_, PyAny>,
         sources: &Bound<'_, PyDict>,
         distance_powers: &Bound<'_, PyDict>,
         reference_distances: &Bound<'_, PyDict>,
+        truncation: f64,
     ) -> PyResult<Self> {
         let three = || PyTypeError::new_err("texts must be three texts, one for each body axis");
         let texts: Vec<String> = texts.extract().map_err(|_| three())?;
@@ -161,7 +166,8 @@ impl Torque {
             Ok(TorqueSource::new(&name, source_path(&path)?).falling(power, distance))
         };
         let sources = sources.iter().map(source).collect::<PyResult<Vec<_>>>()?;
-        made(Inner::polynomial([first, second, third], sources))
+        let torque = Inner::polynomial([first, second, third], sources);
+        made(torque.and_then(|torque| torque.truncated(truncation)))
     }
 
     /// The kind: "constant", "damping", "rotor" or "polynomial".
@@ -171,6 +177,28 @@ impl Torque {
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let written = self.written(py)?;
+        if written.chars().count() <= MOST_WRITTEN {
+            return Ok(written);
+        }
+        let left_out =
+            if self.0.truncation() > 0.0 { format!(", truncation {:.2e}", self.0.truncation()) } else { String::new() };
+        Ok(format!("<Torque, polynomials of degree {}{left_out}>", self.0.degree()))
+    }
+
+    fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
+        PyTuple::new(py, [self.kind().to_owned(), self.written(py)?])?.hash()
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (method, arguments) = slf.get().parts(slf.py())?;
+        Ok((slf.get_type().getattr(method)?, arguments))
+    }
+}
+
+impl Torque {
+    /// As Python code, without the truncation.
+    fn written(&self, py: Python<'_>) -> PyResult<String> {
         let Inner::Polynomial(torque) = &self.0 else {
             let (method, arguments) = self.parts(py)?;
             return Ok(format!("Torque.{method}({})", arguments.get_item(0)?.repr()?));
@@ -185,24 +213,16 @@ impl Torque {
         Ok(format!("Torque.polynomial({:?}{keywords})", torque.texts()))
     }
 
-    fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
-        PyTuple::new(py, [self.kind().to_owned(), self.__repr__(py)?])?.hash()
-    }
-
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let (method, arguments) = slf.get().parts(slf.py())?;
-        Ok((slf.get_type().getattr(method)?, arguments))
-    }
-}
-
-impl Torque {
     /// The class method that makes this torque, and its arguments.
     fn parts<'py>(&self, py: Python<'py>) -> PyResult<(&'static str, Bound<'py, PyTuple>)> {
         Ok(match &self.0 {
             Inner::Constant(torque) => ("constant", PyTuple::new(py, [torque.to_vec()])?),
             Inner::Rotor(momentum) => ("rotor", PyTuple::new(py, [momentum.to_vec()])?),
             Inner::Damping(rows) => ("damping", PyTuple::new(py, [rows.map(|row| row.to_vec()).to_vec()])?),
-            Inner::Polynomial(_) => ("_polynomial", PyTuple::new(py, self.of_polynomial(py)?)?),
+            Inner::Polynomial(torque) => {
+                let [texts, sources, powers, distances] = self.of_polynomial(py)?;
+                ("_polynomial", (texts, sources, powers, distances, torque.truncation()).into_pyobject(py)?)
+            }
             _ => return Err(InternalError::new_err("a fault of this package, please report it: an unknown torque")),
         })
     }
@@ -239,7 +259,7 @@ fn made(torque: Result<Inner, andoyer_propagate::Error>) -> PyResult<Torque> {
     torque.map(Torque).map_err(error::propagation)
 }
 
-fn source_path(value: &Bound<'_, PyAny>) -> PyResult<SourcePath> {
+pub(crate) fn source_path(value: &Bound<'_, PyAny>) -> PyResult<SourcePath> {
     if let Ok(orbit) = value.cast::<Orbit>() {
         return Ok(SourcePath::Orbit(orbit.get().0));
     }

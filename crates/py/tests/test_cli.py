@@ -337,7 +337,7 @@ def test_help_ends_with_examples_that_are_parsed(command, capsys):
 def test_no_command_is_one_line_that_names_the_commands():
     done = run()
     assert done.returncode == 2 and done.stdout == ""
-    assert done.stderr == "andoyer: error: a command is missing: propagate, convert, plot, code, plan, librations, bodies, series (--help says more)\n"
+    assert done.stderr == "andoyer: error: a command is missing: propagate, convert, plot, code, plan, librations, evolve, bodies, series (--help says more)\n"
 
 
 @pytest.mark.parametrize("ending", ["csv", "npz", "parquet", "aem", "png"])

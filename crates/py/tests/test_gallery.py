@@ -32,6 +32,7 @@ def test_there_are_the_twenty_of_them():
         "dead_satellite",
         "flyby",
         "relaxation",
+        "satellite_years",
     ]
 
 

@@ -20,6 +20,11 @@ pub(super) fn elsewhere(possible: &[[String; 2]], swapped: &[[String; 2]]) -> St
     }
 }
 
+/// Where the averages over years are, for a method of that name.
+pub(super) fn evolve(method: &str) -> &'static str {
+    if method == "averaged" { "; Scene.evolve averages weak torques over the rotation, without attitudes" } else { "" }
+}
+
 /// The known name most similar to an unknown one, if up to a third of its letters are wrong, missing, added or exchanged.
 pub(super) fn did_you_mean(name: &str, known: &[&str]) -> String {
     let name = name.to_lowercase();

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use andoyer_double::DoubleDouble;
-use andoyer_series::Polynomial;
+use andoyer_series::{Monomial, Polynomial};
 use nalgebra::{Matrix3, Vector3};
 
 use super::principal_axes::{Square, UNIT, along, product, rounded, transposed};
@@ -54,6 +54,8 @@ pub struct PolynomialTorque {
     terms: [Vec<(f64, Vec<u32>)>; 3],
     /// The rotation from components about the axes of the scene to those of the texts.
     turn: Square,
+    /// Root mean square over all directions of what the polynomials leave out of the torque of a shape, relative to that of the torque; 0 for stated polynomials.
+    truncation: f64,
 }
 
 /// A source that a polynomial names.
@@ -206,8 +208,41 @@ impl Torque {
         let names: Vec<String> = names.flat_map(|name| (1..=3).map(move |axis| format!("{name}{axis}"))).collect();
         let [first, second, third] = texts.map(|text| parsed(text, &names));
         let texts = texts.map(str::to_owned);
-        let turn = UNIT;
-        Ok(Self::Polynomial(Arc::new(PolynomialTorque { texts, sources, terms: [first?, second?, third?], turn })))
+        let (turn, terms) = (UNIT, [first?, second?, third?]);
+        Ok(Self::Polynomial(Arc::new(PolynomialTorque { texts, sources, terms, turn, truncation: 0.0 })))
+    }
+
+    /// The torque of a shape: three polynomials in the direction to one source, and what they leave out.
+    ///
+    /// # Errors
+    /// As [`Torque::polynomial`].
+    pub(crate) fn of_shape(polynomials: &[Polynomial<f64>; 3], source: TorqueSource) -> Result<Self, Error> {
+        let text = |polynomial: &Polynomial<f64>| {
+            let term = |(monomial, coefficient): (Monomial, &f64)| {
+                let factor = |slot: usize| match monomial.exponent(slot) {
+                    0 => String::new(),
+                    power => format!("*{}{}^{power}", source.name, slot + 1),
+                };
+                format!("{coefficient:?}{}{}{}", factor(0), factor(1), factor(2))
+            };
+            let terms: Vec<String> = polynomial.terms().map(term).collect();
+            if terms.is_empty() { "0".to_owned() } else { terms.join(" + ").replace("+ -", "- ") }
+        };
+        let [first, second, third] = polynomials.each_ref().map(text);
+        Self::polynomial([&first, &second, &third], vec![source])
+    }
+
+    /// The same polynomials with this [`PolynomialTorque::truncation`].
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for a negative number, NaN or an infinity, and for a torque without polynomials.
+    pub fn truncated(self, truncation: f64) -> Result<Self, Error> {
+        match self {
+            Self::Polynomial(torque) if truncation >= 0.0 && truncation.is_finite() => {
+                Ok(Self::Polynomial(Arc::new(PolynomialTorque { truncation, ..(*torque).clone() })))
+            }
+            _ => Err(refused("truncation", truncation, "of a polynomial, finite and at least 0")),
+        }
     }
 
     /// # Errors
@@ -246,6 +281,23 @@ impl Torque {
         }
     }
 
+    /// The largest degree in directions and rates.
+    pub fn degree(&self) -> u32 {
+        match self {
+            Self::Constant(_) => 0,
+            Self::Damping(_) | Self::Rotor(_) => 1,
+            Self::Polynomial(torque) => torque.degree(),
+        }
+    }
+
+    /// That of [`PolynomialTorque::truncation`], 0 for other torques.
+    pub fn truncation(&self) -> f64 {
+        match self {
+            Self::Polynomial(torque) => torque.truncation,
+            _ => 0.0,
+        }
+    }
+
     /// Its kind in one word.
     pub fn kind(&self) -> &'static str {
         match self {
@@ -266,6 +318,17 @@ impl PolynomialTorque {
     /// The sources.
     pub fn sources(&self) -> &[TorqueSource] {
         &self.sources
+    }
+
+    /// The largest degree in directions and rates.
+    pub fn degree(&self) -> u32 {
+        let degrees = self.terms.iter().flatten().map(|(_, exponents)| exponents.iter().sum::<u32>());
+        degrees.max().unwrap_or(0)
+    }
+
+    /// Root mean square over all directions of what the polynomials leave out of the torque of a shape, relative to that of the torque; 0 for stated polynomials.
+    pub fn truncation(&self) -> f64 {
+        self.truncation
     }
 
     pub(crate) fn terms(&self) -> &[Vec<(f64, Vec<u32>)>; 3] {
@@ -315,6 +378,6 @@ fn parsed(text: &str, names: &[String]) -> Result<Vec<(f64, Vec<u32>)>, Error> {
     Ok(terms.collect())
 }
 
-fn refused(argument: &'static str, value: impl ToString, bound: &str) -> Error {
+pub(crate) fn refused(argument: &'static str, value: impl ToString, bound: &str) -> Error {
     Error::Torque { argument, value: value.to_string(), bound: bound.to_owned() }
 }

@@ -30,6 +30,7 @@
 //! # gm = 4.0e14                    # G × mass of the disturbing body
 //! # [[torque]]                     # once for each torque beside the gravity gradient: constant, damping (a matrix), rotor or polynomial
 //! # polynomial = ["0", "-2e-3*b3", "2e-3*b2"]   # in unit vectors to sources (b1, b2, b3) and rates (w1, w2, w3), body components
+//! # truncation = 0.02              # of the polynomials of a shape: what they leave out, relative to the torque
 //! # [[torque.source]]
 //! # name = "b"                     # with direction = [0, 0, 1], inertial, or [torque.source.orbit] as above
 //! # power = 3                      # with an orbit: the factor (reference_distance/r)^power

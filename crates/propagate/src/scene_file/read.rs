@@ -88,14 +88,15 @@ impl StateTable {
 
 impl TorqueTable {
     fn torque(self) -> Result<Torque, Refusal> {
-        let no_source = self.source.is_empty();
+        let no_source = self.source.is_empty() && self.truncation.is_none();
         Ok(match (self.constant, self.damping, self.rotor, self.polynomial) {
             (Some(torque), None, None, None) if no_source => Torque::constant(torque)?,
             (None, Some(matrix), None, None) if no_source => Torque::damping(matrix)?,
             (None, None, Some(momentum), None) if no_source => Torque::rotor(momentum)?,
             (None, None, None, Some(texts)) => {
                 let sources = self.source.into_iter().map(SourceTable::source).collect::<Result<Vec<_>, _>>()?;
-                Torque::polynomial(texts.each_ref().map(String::as_str), sources)?
+                let torque = Torque::polynomial(texts.each_ref().map(String::as_str), sources)?;
+                self.truncation.map_or(Ok(torque.clone()), |truncation| torque.truncated(truncation))?
             }
             _ => {
                 let bound = "one of constant, damping, rotor, and polynomial with its sources";

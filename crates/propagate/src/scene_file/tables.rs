@@ -56,6 +56,8 @@ pub(super) struct TorqueTable {
     pub(super) rotor: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) polynomial: Option<[String; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) truncation: Option<f64>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) source: Vec<SourceTable>,
 }

@@ -52,6 +52,7 @@ impl TorqueTable {
             Torque::Rotor(momentum) => Self { rotor: Some(*momentum), ..none },
             Torque::Polynomial(torque) => Self {
                 polynomial: Some(torque.texts().clone()),
+                truncation: (torque.truncation() != 0.0).then_some(torque.truncation()),
                 source: torque.sources().iter().map(SourceTable::of).collect(),
                 ..none
             },

@@ -233,6 +233,58 @@ class Torque:
         reference_distances: dict[str, float] | None = None,
     ) -> Torque:
         """Three polynomials in directions and rates, times powers of distances."""
+    @classmethod
+    def from_facets(
+        cls,
+        vertices: ArrayLike | str | os.PathLike[str],
+        triangles: ArrayLike | None = None,
+        *,
+        specular: float = 0.0,
+        diffuse: float = 0.0,
+        emission: float = 1.0,
+        pressure: float,
+        source: Orbit | TabulatedOrbit | ArrayLike,
+        at: float | None = None,
+        degree: int = 8,
+        scale: float = 1.0,
+    ) -> Torque:
+        """The torque of light on a shape of triangles, as polynomials in the direction to the light (weak torques, section 3). The shape casts no shadows on itself."""
+    @classmethod
+    def panels(
+        cls,
+        normals: ArrayLike,
+        areas: ArrayLike,
+        centroids: ArrayLike,
+        *,
+        two_sided: bool = False,
+        specular: ArrayLike = 0.0,
+        diffuse: ArrayLike = 0.0,
+        emission: ArrayLike = 1.0,
+        pressure: float,
+        source: Orbit | TabulatedOrbit | ArrayLike,
+        at: float | None = None,
+        degree: int = 8,
+    ) -> Torque:
+        """The torque of light on flat plates, as polynomials in the direction to the light, without shadows."""
+    @classmethod
+    def sphere(
+        cls,
+        table: Callable[[_Array], ArrayLike] | ArrayLike,
+        *,
+        source: Orbit | TabulatedOrbit | ArrayLike,
+        at: float | None = None,
+        power: float = 2.0,
+        degree: int = 8,
+    ) -> Torque:
+        """The torque with given values for all directions to a source, as polynomials."""
+    def value(self, u: ArrayLike) -> _Array:
+        """The torque for directions to its source, at the reference distance."""
+    @property
+    def degree(self) -> int:
+        """The largest degree in directions and rates."""
+    @property
+    def truncation(self) -> float:
+        """What the polynomials of a shape leave out: root mean square over all directions, relative to that of the torque; 0 for torques that are not made of shapes."""
     @property
     def kind(self) -> Literal["constant", "damping", "rotor", "polynomial"]:
         """The kind: "constant", "damping", "rotor" or "polynomial"."""
@@ -306,6 +358,10 @@ class Scene:
         """Reads a scene from a TOML file."""
     def to_toml(self) -> str:
         """Writes the scene as TOML text. `from_toml` reads this text from a file as an equal scene."""
+    def drift(self, *, average: Literal["auto", "orbit", "spin"] = "auto") -> Drift:
+        """The mean rates of angular momentum, excess of energy, spin period and obliquity at the epoch: torques averaged over the rotation (weak torques, section 1)."""
+    def evolve(self, span: ArrayLike | None = None, *, average: Literal["auto", "orbit", "spin"] = "auto", tolerance: float = 1e-06) -> Evolution:
+        """The motion averaged over the rotation, over years to millions of years: angular momentum and excess of energy, without attitude and phases."""
     def solve(self) -> Motion:
         """Solves the scene: computes everything that does not depend on time, and returns the motion."""
     @property
@@ -557,6 +613,101 @@ class Samples:
     def to_xarray(self) -> Dataset:
         """Converts the samples to an xarray data set: attitude and angular_velocity by (member,) time, and quaternion or axis. This method imports xarray."""
     def __len__(self) -> int: ...
+
+@final
+class Drift:
+    """Mean rates of a scene, from `Scene.drift`."""
+
+    @property
+    def momentum(self) -> _Array:
+        """Rate of the angular momentum, inertial, in moment × rate²: a read-only array of shape (3,)."""
+    @property
+    def excess(self) -> float:
+        """Rate of the excess of energy ξ (`Evolution`), in 1/time."""
+    @property
+    def spin_period(self) -> float:
+        """Rate of the spin period, a plain number."""
+    @property
+    def obliquity(self) -> float | None:
+        """Rate of the obliquity, in rad/time; None without an orbit."""
+    @property
+    def by_degree(self) -> list[tuple[_Array, float]]:
+        """Rates of momentum and excess by the harmonics of each degree, from 0: tuples (momentum (3,), excess)."""
+    @property
+    def wobble_rate(self) -> float:
+        """Growth rate of a small excess of energy, in 1/time: uniform rotation about the axis of the mode is unstable if it is positive."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __copy__(self) -> Drift: ...
+    def __deepcopy__(self, _memo: Any) -> Drift: ...
+
+@final
+class Evolution:
+    """The motion averaged over the rotation, from `Scene.evolve`. It has no attitude and no phases."""
+
+    def at(self, times: Any) -> EvolvedStates:
+        """The averaged state at times of the span, up to the end of the evolution."""
+    def band(self, times: Any) -> _Array:
+        """What the averages leave out at times: root mean square over the phases of the short-period parts."""
+    @property
+    def end(self) -> EvolutionEnd:
+        """Why and when it ends."""
+    @property
+    def reached(self) -> tuple[float, float]:
+        """The first and the last time that it reaches."""
+    @property
+    def average(self) -> Literal["orbit", "spin"]:
+        """The averaging: "orbit" or "spin"."""
+    @property
+    def scene(self) -> Scene:
+        """The scene."""
+    def __copy__(self) -> Evolution: ...
+    def __deepcopy__(self, _memo: Any) -> Evolution: ...
+
+@final
+class EvolutionEnd:
+    """The end of an evolution, from `Evolution.end`."""
+
+    @property
+    def reason(self) -> Literal["span", "separatrix", "slow rotation", "near sphere"]:
+        """Why it ends: "span"; "separatrix", after which the mode depends on lost phases; "slow rotation" or "near sphere", where rotation or wobble is no longer fast against the torque."""
+    @property
+    def time(self) -> float:
+        """When it ends."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __copy__(self) -> EvolutionEnd: ...
+    def __deepcopy__(self, _memo: Any) -> EvolutionEnd: ...
+
+@final
+class EvolvedStates:
+    """Averaged states at times, from `Evolution.at`: arrays whose first axis is that of the times."""
+
+    @property
+    def times(self) -> _Array:
+        """The times, shape (n,)."""
+    @property
+    def momentum(self) -> _Array:
+        """Angular momentum, inertial, in moment × rate, shape (n, 3)."""
+    @property
+    def direction(self) -> _Array:
+        """Its direction: unit vectors, shape (n, 3)."""
+    @property
+    def excess(self) -> _Array:
+        """ξ, the excess of energy, shape (n,): 2CE/M² − 1 in the short-axis mode, 1 − 2AE/M² in the long-axis mode."""
+    @property
+    def spin_period(self) -> _Array:
+        """2π M/2E, the spin period, of a tumbler an effective one, shape (n,)."""
+    @property
+    def obliquity(self) -> _Array | None:
+        """Angle between the angular momentum and the normal of the first orbit, in rad, shape (n,); None without an orbit."""
+    @property
+    def mode(self) -> Literal["short-axis", "long-axis"] | None:
+        """The mode: "short-axis" or "long-axis"; an evolution stays in its mode."""
+    @property
+    def periods(self) -> dict[str, PeriodsOfMembers]:
+        """Mean periods of the precession of the axis and of the motion about it, by convention as `Motion.periods`, arrays of shape (n,)."""
+    def __len__(self) -> int: ...
+    def __copy__(self) -> EvolvedStates: ...
+    def __deepcopy__(self, _memo: Any) -> EvolvedStates: ...
 
 @final
 class Orbital:

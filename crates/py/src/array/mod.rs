@@ -208,6 +208,19 @@ pub(crate) fn vectors(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<
     }
 }
 
+/// `value` as three rows of any length.
+pub(crate) fn coefficients(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<[Vec<f64>; 3]> {
+    let array = numbers(argument, value)?;
+    match array.shape() {
+        &[3, n] if n > 0 => {
+            let values = read(argument, &array)?;
+            let row = |axis: usize| -> PyResult<Vec<f64>> { Ok(values.as_slice()?[axis * n..(axis + 1) * n].to_vec()) };
+            Ok([row(0)?, row(1)?, row(2)?])
+        }
+        _ => Err(wrong_shape(argument, &array, "(3, (d + 1)²)")),
+    }
+}
+
 /// `value` as `length` numbers.
 pub(crate) fn fixed_length(argument: &str, value: &Bound<'_, PyAny>, length: usize) -> PyResult<Vec<f64>> {
     let array = numbers(argument, value)?;

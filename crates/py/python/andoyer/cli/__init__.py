@@ -1,4 +1,4 @@
-"""The command line: `andoyer propagate`, `plot`, `code`, `plan`, `bodies`, `series`.
+"""The command line: `andoyer propagate`, `plot`, `code`, `plan`, `evolve`, `bodies`, `series`.
 
 The exit status is 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion without a theory,
 no command. A tolerance that is not met prints one line on stderr, and the exit status is 3 with `--strict`. After Ctrl-C it is 130, and no incomplete file is left.
@@ -19,6 +19,7 @@ import andoyer
 from andoyer import output
 from andoyer._extra import extra
 from andoyer.cli import _converting as converting
+from andoyer.cli import _evolving as evolving
 from andoyer.cli import _printing as printing
 from andoyer.cli import _reading as reading
 from andoyer.cli import _series as normal_form
@@ -35,7 +36,7 @@ SAMPLES = 1000
 """Samples if the command line gives neither their number nor a step."""
 
 PICTURES = [".png", ".svg", ".pdf", ".html"]
-COMMANDS = ["propagate", "convert", "plot", "code", "plan", "librations", "bodies", "series"]
+COMMANDS = ["propagate", "convert", "plot", "code", "plan", "librations", "evolve", "bodies", "series"]
 Code = Literal["c", "rust", "python", "javascript"]
 CODES: dict[str, Code] = {".c": "c", ".rs": "rust", ".py": "python", ".js": "javascript"}
 """Languages of the code of a motion, each by the ending of its files."""
@@ -60,6 +61,9 @@ andoyer plot eros.aem -o difference.png --against eros.toml --date 2026-01-01T00
     "code": """\
 andoyer code apophis.toml -o apophis.c
 andoyer code apophis.toml --language rust > apophis.rs""",
+    "evolve": """\
+andoyer evolve satellite.toml -o years.csv --stop 3e8
+andoyer evolve satellite.toml -o years.png --stop 3e8""",
     "bodies": "andoyer bodies",
     "series": """\
 andoyer series --order 10
@@ -145,6 +149,10 @@ def parser() -> Parser:
 
     prints = "print the proper modes and the terms of a body locked to its orbit"
     printing.add_librations(commands.add_parser("librations", help=prints, **examples("", EXAMPLES["librations"])))
+
+    writes = "write angular momentum, spin period, obliquity and excess of energy over years, averaged over the rotation"
+    told = f"{writes.capitalize()}. Columns {evolving.COLUMNS}."
+    evolving.add_command(commands.add_parser("evolve", help=writes, description=told, **examples("", EXAMPLES["evolve"])))
 
     command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source", **examples("", EXAMPLES["bodies"]))
     command.set_defaults(run=printing.bodies)

@@ -26,6 +26,7 @@ from andoyer.plot._diagrams import domain, error_by_order, work_precision
 from andoyer.plot._distribution import distribution
 from andoyer.plot._drawing import near_pole, on_ellipsoid, plane
 from andoyer.plot._drawing import surface as draw_surface
+from andoyer.plot._evolution import evolution
 from andoyer.plot._film import film
 from andoyer.plot._librations import libration_spectrum, libration_summary, librations, pole_librations
 from andoyer.plot._mode import about, in_order, is_still, mode_axis, names, nutation_angle, precession_and_spin, without_mean
@@ -52,6 +53,7 @@ __all__ = [
     "distribution",
     "domain",
     "error_by_order",
+    "evolution",
     "libration_spectrum",
     "libration_summary",
     "librations",

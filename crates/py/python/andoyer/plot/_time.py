@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from andoyer._core import Motion
+from andoyer._core import Evolution, Motion
 from andoyer._extra import extra
 from andoyer._quaternions import Array
 from andoyer._refusal import refusal
@@ -90,8 +90,8 @@ def clock(times: Array, dated: bool, time_unit: str | None) -> Clock:
     return Clock(dates, "date (TDB)", True, unit, seconds)
 
 
-def clock_of(motion: Motion, times: Array, time_unit: str | None) -> Clock:
-    """The time axis of a motion."""
+def clock_of(motion: Motion | Evolution, times: Array, time_unit: str | None) -> Clock:
+    """The time axis of a motion or an evolution."""
     return clock(times, hasattr(epoch_of(motion.scene), "jd1"), time_unit)
 
 

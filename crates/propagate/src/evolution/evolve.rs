@@ -1,0 +1,180 @@
+//! `Scene::evolve`: the averaged motion over a span.
+
+use std::sync::atomic::AtomicBool;
+
+use nalgebra::Vector3;
+
+use super::averaged_scene::{AveragedScene, Evolved};
+use super::path::{AveragedPath, EvolutionEnd, Node, Scaled};
+use super::short_period::ShortPeriod;
+use super::weakness::EndReason;
+use crate::error::Error;
+use crate::input::options::Averaging;
+use crate::input::scene::Scene;
+use crate::simd::halt::GOING;
+
+/// The averaged motion of a scene over a span. It has no attitude and no phases: after times of 1/ε rotations they are unknown.
+#[derive(Clone, Debug)]
+pub struct Evolution {
+    /// As it was given.
+    scene: Scene,
+    problem: AveragedScene,
+    span: [f64; 2],
+    /// To the start of the span, and to its end.
+    paths: [AveragedPath; 2],
+}
+
+impl Evolution {
+    /// The averaged state at times within the span, up to the end of the evolution.
+    ///
+    /// # Errors
+    /// - [`Error::Time`] for a time outside.
+    pub fn at(&self, times: &[f64]) -> Result<Vec<Evolved>, Error> {
+        let unit = self.problem.momentum.norm();
+        let mut scaled = Scaled::new(&self.problem.equations, unit);
+        let epoch = self.problem.equations.epoch;
+        let [first, last] = self.paths.each_ref().map(|path| path.end.time);
+        let one = |(index, &time): (usize, &f64)| {
+            if !(first <= time && time <= last) {
+                let bound = if time < epoch { epoch - first } else { last - epoch };
+                let reason = ", within the evolution";
+                return Err(Error::Time { index, value: time, epoch, span: Some([first, last]), bound, reason });
+            }
+            let [x, y, z, excess] = self.paths[usize::from(time >= epoch)].state(&mut scaled, time)?;
+            Ok(self.problem.evolved(time, &(Vector3::new(x, y, z) * unit), excess))
+        };
+        times.iter().enumerate().map(one).collect()
+    }
+
+    /// What the averages leave out at times: root mean square over the phases of the short-period parts of the angular momentum, over its size, and of ξ.
+    ///
+    /// # Errors
+    /// As [`Evolution::at`].
+    pub fn band(&self, times: &[f64]) -> Result<Vec<[f64; 2]>, Error> {
+        let one = |state: &Evolved| {
+            let momentum = Vector3::from(state.momentum);
+            let short = ShortPeriod::new(&self.problem.equations, state.time, (&momentum, state.excess))?;
+            let [turn, excess] = short.band();
+            Ok([turn / momentum.norm(), excess])
+        };
+        self.at(times)?.iter().map(one).collect()
+    }
+
+    /// Why and when it ends: towards the end of the span, or towards its start if that is where it stops.
+    pub fn end(&self) -> EvolutionEnd {
+        let [backward, forward] = self.paths.each_ref().map(|path| path.end);
+        if forward.reason == EndReason::Span && backward.reason != EndReason::Span { backward } else { forward }
+    }
+
+    /// The first and the last time.
+    pub fn reached(&self) -> [f64; 2] {
+        self.paths.each_ref().map(|path| path.end.time)
+    }
+
+    /// The span that was asked for.
+    pub fn span(&self) -> [f64; 2] {
+        self.span
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Whether torques are averaged over orbits, too.
+    pub fn average(&self) -> Averaging {
+        let over = self.problem.equations.sources.iter().any(|source| source.over_orbit);
+        if over { Averaging::Orbit } else { Averaging::Spin }
+    }
+}
+
+/// Options of an evolution.
+#[derive(Clone, Copy, Debug)]
+pub struct EvolveOptions<'a> {
+    span: Option<(f64, f64)>,
+    average: Averaging,
+    tolerance: f64,
+    stop: &'a AtomicBool,
+}
+
+impl Default for EvolveOptions<'_> {
+    /// The span of the scene, the averaging that serves, a tolerance of 1e-6.
+    fn default() -> Self {
+        Self { span: None, average: Averaging::Auto, tolerance: 1e-6, stop: &GOING }
+    }
+}
+
+impl<'a> EvolveOptions<'a> {
+    /// Sets the first and the last time.
+    #[must_use]
+    pub fn span(self, start: f64, stop: f64) -> Self {
+        Self { span: Some((start, stop)), ..self }
+    }
+
+    /// Sets the averaging.
+    #[must_use]
+    pub fn average(self, average: Averaging) -> Self {
+        Self { average, ..self }
+    }
+
+    /// Sets the largest relative error of a step of the integration.
+    #[must_use]
+    pub fn tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+
+    /// Ends the integration with [`Error::Stopped`] once the flag is set.
+    #[must_use]
+    pub fn until(self, stop: &'a AtomicBool) -> Self {
+        Self { stop, ..self }
+    }
+}
+
+impl Scene {
+    /// The motion averaged over the rotation: angular momentum and excess of energy over 10³ to 10⁹ rotations, without attitude and phases.
+    ///
+    /// ```
+    /// use andoyer_propagate::evolutions::EvolveOptions;
+    /// use andoyer_propagate::torques::Torque;
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?;
+    /// let damping = Torque::damping([[1e-9, 0.0, 0.0], [0.0, 1.5e-9, 0.0], [0.0, 0.0, 2e-9]])?; // κI: the momentum decays with κ
+    /// let scene = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).torques([damping]);
+    /// let evolution = scene.evolve(EvolveOptions::default().span(0.0, 1e9))?;
+    /// let [start, end] = evolution.at(&[0.0, 1e9])?[..] else { unreachable!() };
+    /// assert!((end.momentum[2] / start.momentum[2] - (-1.0_f64).exp()).abs() < 1e-6);
+    /// assert!((end.excess / start.excess - 1.0).abs() < 1e-12);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - Those of [`Scene::validate`]; [`Error::NoSpan`]; [`Error::Span`] for a span that does not contain the epoch; [`Error::Tolerance`].
+    /// - [`Error::NotAveraged`] for a torque that is not weak against the rotation and the wobble, an orbit that is not slow, the separatrix, a sphere, a body at rest.
+    /// - [`Error::Torque`] for rotors, and for a polynomial with the directions to two sources in one term.
+    /// - [`Error::Table`], [`Error::TooManySteps`], [`Error::Stopped`].
+    pub fn evolve(&self, options: EvolveOptions<'_>) -> Result<Evolution, Error> {
+        let epoch = self.state().epoch;
+        let Some((start, stop)) = options.span.or(self.asked_span()) else {
+            return Err(Error::NoSpan { reason: String::new() });
+        };
+        if !(start.is_finite() && stop.is_finite() && start <= epoch && epoch <= stop) {
+            return Err(Error::Span { start, stop });
+        }
+        let tolerance = options.tolerance;
+        if !(tolerance.is_finite() && tolerance > 0.0) {
+            return Err(Error::Tolerance { value: tolerance });
+        }
+        let problem = AveragedScene::new(self, options.average)?;
+        let unit = problem.momentum.norm();
+        // The mean state at the epoch: without the part that the averages leave out.
+        let short = ShortPeriod::new(&problem.equations, epoch, (&problem.momentum, problem.excess))?;
+        let (momentum, excess) = short.mean(&problem.attitude, &problem.momentum);
+        let k = momentum / unit;
+        let node = Node { time: epoch, state: [k.x, k.y, k.z, excess] };
+        let (equations, longest) = (&problem.equations, problem.longest_step());
+        let mut scaled = Scaled::new(equations, unit);
+        let mut run = |end: f64| AveragedPath::run(&mut scaled, node, (end, longest), tolerance, options.stop);
+        let paths = [run(start)?, run(stop)?];
+        Ok(Evolution { scene: self.clone(), problem, span: [start, stop], paths })
+    }
+}

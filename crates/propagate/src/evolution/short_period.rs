@@ -1,0 +1,155 @@
+//! The short-period part of the averaged motion: osculating = mean + W (weak torques (12), (13)).
+
+use nalgebra::{Complex, Rotation3, UnitQuaternion, Vector3};
+
+use super::equations::AveragedTorques;
+use super::polhode_means::ExcessPolhode;
+use super::torus::{ABOUT, ALONG, Lag, MomentumFrame, fourier, phase, signed, torque_grid, turned_axes};
+use crate::error::Error;
+
+/// A term next to a resonance is left out: 2|F ∂Ω/∂ξ| ≥ LIMIT Ω².
+const LIMIT: f64 = 0.5;
+/// Below this ratio of √ξ to the change of ζ the excess is corrected by ζ: (12) divides by √ξ there.
+const SMALL: f64 = 10.0;
+
+/// Solution of first order on the torus at one state.
+#[derive(Clone, Debug)]
+pub(super) struct ShortPeriod {
+    frame: MomentumFrame,
+    polhode: ExcessPolhode,
+    lag: Lag,
+    /// h, m and the coefficients along k, x̂, ẑ and of ξ.
+    terms: Vec<([i32; 2], [Complex<f64>; 4])>,
+    /// Those of ζ = √α g_cn + iς√α₂ g₂ at ξ = 0, for each m.
+    wobble: Vec<(i32, Complex<f64>)>,
+}
+
+impl ShortPeriod {
+    /// At the mean state of a time.
+    pub(super) fn new(
+        equations: &AveragedTorques,
+        time: f64,
+        (momentum, excess): (&Vector3<f64>, f64),
+    ) -> Result<Self, Error> {
+        let polhode = ExcessPolhode::new(&equations.moments, equations.family, excess);
+        let size = momentum.norm();
+        let towards = equations.places(time)?.first().map_or_else(Vector3::z, |view| view.direction);
+        let frame = MomentumFrame::new(momentum, &towards);
+        let directions = std::array::from_fn(|point| polhode.direction(phase(point).sin_cos()));
+        let lag = Lag::new(&polhode, &directions);
+        let grid = torque_grid(equations, time, (&frame, &polhode, size), &directions, &lag)?;
+        let coefficients = fourier(&grid);
+        let steady = Self::wobble(equations, time, (&frame, size))?;
+        let mut found = Self { frame, polhode, lag, terms: Vec::new(), wobble: steady };
+        let (rates, slopes) = found.rates(size);
+        for m in 0..ABOUT {
+            for h in 0..ALONG {
+                let multiples = [signed(h, ALONG), signed(m, ABOUT)];
+                let [divisor, slope] = [rates, slopes]
+                    .map(|[wobble, turn]| f64::from(multiples[0]) * wobble + f64::from(multiples[1]) * turn);
+                let term = [0, 1, 2, 3].map(|function| coefficients[function][m][h]);
+                let resonant = 2.0 * (term[3] * slope).norm() >= LIMIT * divisor * divisor;
+                if multiples != [0, 0] && divisor.abs() > 1e-14 * size && !resonant {
+                    // W = F/(iΩ)
+                    found.terms.push((multiples, term.map(|c| c / Complex::new(0.0, divisor))));
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    /// dℓ′/dt and dy′/dt, and their derivatives with respect to ξ.
+    fn rates(&self, size: f64) -> ([f64; 2], [f64; 2]) {
+        let rates = |polhode: &ExcessPolhode| [polhode.wobble_rate(), polhode.mean_turn_rate()].map(|rate| size * rate);
+        let here = rates(&self.polhode);
+        let excess = self.polhode.excess;
+        if excess == 0.0 {
+            return (here, [0.0; 2]);
+        }
+        let step = 1e-5 * excess;
+        let there = rates(&ExcessPolhode::new(&self.polhode.moments, self.polhode.family, excess - step));
+        (here, [0, 1].map(|angle| (here[angle] - there[angle]) / step))
+    }
+
+    /// The coefficients of ζ for a rotation about the axis (13).
+    fn wobble(
+        equations: &AveragedTorques,
+        time: f64,
+        (frame, size): (&MomentumFrame, f64),
+    ) -> Result<Vec<(i32, Complex<f64>)>, Error> {
+        let polhode = ExcessPolhode::new(&equations.moments, equations.family, 0.0);
+        let (family, sign) = (polhode.family, polhode.family.sign());
+        let g = Vector3::ith(family.axis(), sign);
+        let [first, second] = turned_axes(&polhode, &g);
+        let rates = g.component_div(&polhode.moments) * size;
+        let places = equations.places(time)?;
+        let roots = [family.across(), 1].map(|axis| polhode.alpha[axis].sqrt());
+        let turns = |about: usize| std::f64::consts::TAU * about as f64 / ABOUT as f64;
+        let sample = |about: usize| {
+            let (sine, cosine) = turns(about).sin_cos();
+            let (x, z) = (first * cosine - second * sine, first * sine + second * cosine);
+            let body = |v: &Vector3<f64>| g * v.dot(&frame.k) + x * v.dot(&frame.x) + z * v.dot(&frame.z);
+            let views = places.iter().map(|view| super::sources::View { direction: body(&view.direction), ..*view });
+            let torque = equations.torque(views, &rates) / size;
+            Complex::new(roots[0] * torque[family.across()], sign * roots[1] * torque.y)
+        };
+        let samples: Vec<Complex<f64>> = (0..ABOUT).map(sample).collect();
+        let (turn, wobble) = (size * polhode.mean_turn_rate(), size * polhode.wobble_rate());
+        let coefficient = |place: usize| {
+            let m = signed(place, ABOUT);
+            let term =
+                |(about, value): (usize, &Complex<f64>)| value * Complex::from_polar(1.0, -f64::from(m) * turns(about));
+            let sum: Complex<f64> = samples.iter().enumerate().map(term).sum();
+            // ζ̇ = iℓ̇′ζ + F e^(imy′)
+            let divisor = f64::from(m) * turn - wobble;
+            let resonant = divisor.abs() < 1e-3 * wobble;
+            (m, if resonant { Complex::new(0.0, 0.0) } else { sum / ABOUT as f64 / Complex::new(0.0, divisor) })
+        };
+        Ok((0..ABOUT).map(coefficient).collect())
+    }
+
+    /// The mean state of a state with this attitude of the sorted axes: angular momentum and ξ.
+    pub(super) fn mean(&self, attitude: &UnitQuaternion<f64>, momentum: &Vector3<f64>) -> (Vector3<f64>, f64) {
+        let g = attitude.inverse() * momentum.normalize();
+        let (along, turn) = self.angles(attitude, &g);
+        let mut sum = [0.0; 4];
+        for ([h, m], term) in &self.terms {
+            let wave = Complex::from_polar(1.0, f64::from(*h) * along + f64::from(*m) * turn);
+            (0..4).for_each(|function| sum[function] += (term[function] * wave).re);
+        }
+        let [radial, x, z, excess] = sum;
+        let momentum = momentum - (self.frame.k * radial + self.frame.x * x + self.frame.z * z);
+        let polhode = &self.polhode;
+        let change: Complex<f64> =
+            self.wobble.iter().map(|(m, c)| c * Complex::from_polar(1.0, f64::from(*m) * turn)).sum();
+        let size = self.wobble.iter().map(|(_, c)| c.norm()).sum::<f64>();
+        if polhode.excess.sqrt() < SMALL * size {
+            let (across, sign) = (polhode.family.across(), polhode.family.sign());
+            let zeta = Complex::new(polhode.alpha[across].sqrt() * g[across], sign * polhode.alpha.y.sqrt() * g.y);
+            return (momentum, (zeta - change).norm_sqr());
+        }
+        (momentum, (polhode.excess - excess).max(0.0))
+    }
+
+    /// ℓ′ and y′ of a state.
+    fn angles(&self, attitude: &UnitQuaternion<f64>, g: &Vector3<f64>) -> (f64, f64) {
+        let along = self.polhode.phase_of(g);
+        let [first, second] = turned_axes(&self.polhode, g);
+        let x = attitude.inverse() * self.frame.x;
+        let turn = (-x.dot(&second)).atan2(x.dot(&first));
+        (along, turn - self.lag.at(along))
+    }
+
+    /// Root mean square over both angles of the part that the averages leave out: of the angular momentum, and of ξ.
+    pub(super) fn band(&self) -> [f64; 2] {
+        let squares = |functions: std::ops::Range<usize>| -> f64 {
+            self.terms.iter().flat_map(|(_, term)| &term[functions.clone()]).map(Complex::norm_sqr).sum()
+        };
+        [squares(0..3).sqrt(), squares(3..4).sqrt()]
+    }
+}
+
+/// The attitude of the sorted axes.
+pub(super) fn sorted_attitude(attitude: &UnitQuaternion<f64>, sort: &nalgebra::Matrix3<f64>) -> UnitQuaternion<f64> {
+    attitude * UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(sort.transpose()))
+}

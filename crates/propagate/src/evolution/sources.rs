@@ -1,0 +1,104 @@
+//! Where sources are, and how their torques are averaged over an orbit (weak torques (11)).
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+
+use crate::error::Error;
+use crate::input::torque::SourcePath;
+use crate::orbit::elements::Orbit;
+
+/// Points of the true anomaly for a fall that is no integer power of 2 or more.
+const MANY: usize = 128;
+/// The largest degree of a torque.
+const DEGREE: usize = 8;
+
+/// A direction with the weight of the torque there; `zonal` multiplies it by P_l(0), for the mean over the circle about the direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    pub(super) direction: Vector3<f64>,
+    pub(super) weight: f64,
+    pub(super) zonal: bool,
+}
+
+/// The source of a torque.
+#[derive(Clone, Debug)]
+pub(super) struct MovingSource {
+    pub(super) path: SourcePath,
+    pub(super) power: f64,
+    /// In the unit of length of the path.
+    pub(super) reference: f64,
+    /// Whether the torque is averaged over the orbit.
+    pub(super) over_orbit: bool,
+}
+
+impl MovingSource {
+    /// Of a path with the power of the distance and the reference distance as users give it.
+    pub(super) fn new(path: &SourcePath, (power, reference): (f64, f64)) -> Self {
+        let unit = match path {
+            SourcePath::Orbit(orbit) => orbit.asked_semi_major_axis().unwrap_or(1.0),
+            _ => 1.0,
+        };
+        Self { path: path.clone(), power, reference: reference / unit, over_orbit: false }
+    }
+
+    /// The orbit, if it is an ellipse.
+    pub(super) fn ellipse(&self) -> Option<&Orbit> {
+        match &self.path {
+            SourcePath::Orbit(orbit) if !orbit.is_hyperbola() => Some(orbit),
+            _ => None,
+        }
+    }
+
+    /// For a table a rate whose sixth of a period is four of its intervals; 0 otherwise.
+    pub(super) fn table_rate(&self) -> f64 {
+        let SourcePath::Tabulated(table) = &self.path else { return 0.0 };
+        let (first, last) = table.ends();
+        TAU / 24.0 * (table.times().len() - 1) as f64 / (last - first)
+    }
+
+    /// The directions and weights at a time.
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`], [`Error::Table`] for a time that the path does not reach.
+    pub(super) fn views(&self, (epoch, time): (f64, f64), out: &mut Vec<View>) -> Result<(), Error> {
+        out.clear();
+        if self.over_orbit
+            && let Some(orbit) = self.ellipse()
+        {
+            self.around(orbit, (epoch, time), out);
+            return Ok(());
+        }
+        let place = match &self.path {
+            SourcePath::Orbit(orbit) => orbit.relative_position(epoch, time - epoch)?,
+            SourcePath::Tabulated(table) => table.position(time)?.into(),
+            SourcePath::Direction(vector) => Vector3::from(*vector),
+        };
+        let distance = place.amax() * (place / place.amax()).norm();
+        let weight = if self.power == 0.0 { 1.0 } else { (self.reference / distance).powf(self.power) };
+        out.push(View { direction: place / distance, weight, zonal: false });
+        Ok(())
+    }
+
+    /// The mean over the orbit: exact in one view for p = 2.
+    fn around(&self, orbit: &Orbit, (epoch, time): (f64, f64), out: &mut Vec<View>) {
+        let [to_pericentre, ahead, normal] = orbit.axes_after(epoch, time - epoch);
+        let e = orbit.eccentricity();
+        let square = (1.0 - e) * (1.0 + e);
+        if self.power == 2.0 {
+            // ⟨(a/r)² ·⟩: ŝ → n̂, w_l → P_l(0)/√(1−e²)
+            let weight = self.reference * self.reference / square.sqrt();
+            out.push(View { direction: normal, weight, zonal: true });
+            return;
+        }
+        let whole = self.power >= 2.0 && self.power.fract() == 0.0 && self.power < 100.0;
+        let points = if whole { DEGREE + self.power as usize + 1 } else { MANY };
+        for j in 0..points {
+            let (sine, cosine) = (TAU * (j as f64 + 0.5) / points as f64).sin_cos();
+            // dM/2π = (r/a)² df/(2π η), r/a = η²/(1 + e cos f)
+            let radius = square / (1.0 + e * cosine);
+            let weight = (self.reference / radius).powf(self.power) * radius * radius / square.sqrt() / points as f64;
+            out.push(View { direction: to_pericentre * cosine + ahead * sine, weight, zonal: false });
+        }
+    }
+}

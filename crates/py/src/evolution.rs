@@ -1,0 +1,379 @@
+//! `Scene.drift`, `Scene.evolve`, `andoyer.Drift`, `andoyer.Evolution` and what it returns.
+
+use andoyer_propagate::evolutions::{self, EvolveOptions, Evolved};
+use andoyer_propagate::options::Averaging;
+use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::array::{self, Times};
+use crate::computing::{detached, interruptible};
+use crate::error;
+use crate::foreign::Calendar;
+use crate::scene_class::Scene;
+use crate::values::immutable;
+
+#[pymethods]
+impl Scene {
+    /// The mean rates of angular momentum, excess of energy, spin period and obliquity at the epoch: torques averaged over the rotation (weak torques, section 1).
+    ///
+    /// Parameters
+    /// ----------
+    /// average : {"auto", "orbit", "spin"}, optional
+    ///     As of `Scene.evolve`.
+    ///
+    /// Raises
+    /// ------
+    /// TheoryError, InputError
+    ///     As `Scene.evolve`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0, 0, 1], torques=[Torque.damping([1e-9, 2e-9, 2e-9])])
+    /// >>> drift = scene.drift()
+    /// >>> drift.momentum.round(12), drift.wobble_rate > 0
+    /// (array([ 0.e+00,  0.e+00, -2.e-09]), False)
+    #[pyo3(signature = (*, average="auto"))]
+    fn drift(&self, py: Python<'_>, average: &str) -> PyResult<Drift> {
+        let average = averaging(average)?;
+        detached(py, error::propagation, || self.scene.drift(average)).map(Drift)
+    }
+
+    /// The motion averaged over the rotation, over years to millions of years: angular momentum and excess of energy, without attitude and phases.
+    ///
+    /// Torques must be weak: the rotation and the wobble turn many times before a torque changes them. The phases are unknown after times in which the rotation changes by itself, so there is no attitude.
+    ///
+    /// Parameters
+    /// ----------
+    /// span : (float, float), optional
+    ///     First and last time, with the epoch between them or at an end; by default the span of the scene.
+    /// average : {"auto", "orbit", "spin"}, optional
+    ///     "orbit" averages torques of sources on ellipses over their orbits, too: exact in one term if they fall with the square of the distance. "spin" averages over the rotation alone and follows the
+    ///     source. "auto" averages over orbits if an orbit changes direction and excess by less than 0.01.
+    /// tolerance : float, optional
+    ///     Largest relative error of a step of the integration. The averages themselves leave out terms of the second order in the torque.
+    ///
+    /// Returns
+    /// -------
+    /// Evolution
+    ///
+    /// Raises
+    /// ------
+    /// TheoryError
+    ///     A torque that is not weak against the rotation or the wobble, a source that moves too fast, a state on the separatrix, a sphere, a body at rest. The message has the ratio and its limit.
+    /// InputError
+    ///     No span, or one without the epoch; rotors; a polynomial with the directions to two sources in one term; a table that does not reach the span.
+    ///
+    /// Examples
+    /// --------
+    /// A damping in proportion to the inertia: the momentum decays and the wobble stays.
+    ///
+    /// >>> body = Body([1, 1.5, 2])
+    /// >>> scene = Scene(body, [0, 0, 0, 1], [0.1, 0.2, 1.0], torques=[Torque.damping([1e-9, 1.5e-9, 2e-9])])
+    /// >>> evolution = scene.evolve((0, 1e9))
+    /// >>> evolution.end.reason, (evolution.at(1e9).spin_period / evolution.at(0).spin_period).round(6)
+    /// ('span', np.float64(2.718282))
+    #[pyo3(signature = (span=None, *, average="auto", tolerance=None), text_signature = "($self, span=None, *, average='auto', tolerance=1e-06)")]
+    fn evolve(
+        &self,
+        py: Python<'_>,
+        span: Option<&Bound<'_, PyAny>>,
+        average: &str,
+        tolerance: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Evolution> {
+        let mut options = EvolveOptions::default().average(averaging(average)?);
+        if let Some(span) = span {
+            let [start, stop] = array::span(span, self.scene.state().epoch, self.calendar)?;
+            options = options.span(start, stop);
+        }
+        if let Some(tolerance) = tolerance {
+            options = options.tolerance(array::number("tolerance", tolerance)?);
+        }
+        let evolve = |stop: &std::sync::atomic::AtomicBool| self.scene.evolve(options.until(stop));
+        let evolution = interruptible(py, true, error::propagation, evolve)?;
+        Ok(Evolution { evolution, calendar: self.calendar })
+    }
+}
+
+fn averaging(average: &str) -> PyResult<Averaging> {
+    average.parse().map_err(|_| {
+        let message = format!("average = {average:?}: it must be \"auto\", \"orbit\" or \"spin\"");
+        error::input("average", average, "auto, orbit, spin", message)
+    })
+}
+
+/// Mean rates of a scene, from `Scene.drift`.
+///
+/// Examples
+/// --------
+/// >>> scene = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0, 0, 1], torques=[Torque.constant([0, 0, 1e-9])])
+/// >>> drift = scene.drift()
+/// >>> drift.momentum, drift.obliquity is None
+/// (array([0.e+00, 0.e+00, 1.e-09]), True)
+#[pyclass(frozen, eq, module = "andoyer")]
+#[derive(PartialEq)]
+pub(crate) struct Drift(evolutions::Drift);
+
+immutable!(Drift);
+
+#[pymethods]
+impl Drift {
+    /// Rate of the angular momentum, inertial, in moment × rate²: a read-only array of shape (3,).
+    #[getter]
+    fn momentum<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
+        array::constant(py, &self.0.momentum).into_any()
+    }
+
+    /// Rate of the excess of energy ξ (`Evolution`), in 1/time.
+    #[getter]
+    fn excess(&self) -> f64 {
+        self.0.excess
+    }
+
+    /// Rate of the spin period, a plain number.
+    #[getter]
+    fn spin_period(&self) -> f64 {
+        self.0.spin_period
+    }
+
+    /// Rate of the obliquity, in rad/time; None without an orbit.
+    #[getter]
+    fn obliquity(&self) -> Option<f64> {
+        self.0.obliquity
+    }
+
+    /// Rates of momentum and excess by the harmonics of each degree, from 0: tuples (momentum (3,), excess).
+    #[getter]
+    fn by_degree<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        PyList::new(py, self.0.by_degree.iter().map(|(momentum, excess)| (array::constant(py, momentum), *excess)))
+    }
+
+    /// Growth rate of a small excess of energy, in 1/time: uniform rotation about the axis of the mode is unstable if it is positive.
+    #[getter]
+    fn wobble_rate(&self) -> f64 {
+        self.0.wobble_rate
+    }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "<Drift: momentum {:?}, excess {:.3e}, spin period {:.3e}>",
+            self.0.momentum, self.0.excess, self.0.spin_period
+        )
+    }
+}
+
+/// The motion averaged over the rotation, from `Scene.evolve`. It has no attitude and no phases.
+///
+/// Its variables are the angular momentum and the excess of energy ξ: 2CE/M² − 1 in the short-axis mode, 1 − 2AE/M² in the long-axis mode; 0 is uniform rotation.
+///
+/// Examples
+/// --------
+/// >>> scene = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0, 0, 1], torques=[Torque.constant([0, 0, 1e-9])])
+/// >>> evolution = scene.evolve((0, 1e8))
+/// >>> evolution.at([0, 1e8]).momentum.round(9)
+/// array([[0. , 0. , 2. ],
+///        [0. , 0. , 2.1]])
+/// >>> evolution
+/// <Evolution from 0.0 to 100000000.0: span>
+#[pyclass(frozen, module = "andoyer")]
+pub(crate) struct Evolution {
+    evolution: evolutions::Evolution,
+    calendar: Option<Calendar>,
+}
+
+immutable!(Evolution);
+
+#[pymethods]
+impl Evolution {
+    /// The averaged state at times of the span, up to the end of the evolution.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : array_like, shape () or (n,)
+    ///     Times of astropy as in `Scene`.
+    ///
+    /// Raises
+    /// ------
+    /// RepresentationError, InputError
+    ///     A time outside, or that is not finite.
+    fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<EvolvedStates> {
+        let (values, leading) = self.times(times)?;
+        let states = detached(py, error::propagation, || self.evolution.at(&values))?;
+        Ok(EvolvedStates { states, leading })
+    }
+
+    /// What the averages leave out at times: root mean square over the phases of the short-period parts.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : array_like, shape () or (n,)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (2,) or (n, 2)
+    ///     Of the angular momentum, over its size, and of the excess of energy.
+    fn band<'py>(&self, py: Python<'py>, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let (values, leading) = self.times(times)?;
+        let bands = detached(py, error::propagation, || self.evolution.band(&values))?;
+        bands.as_flattened().to_vec().into_pyarray(py).reshape([&leading[..], &[2]].concat())
+    }
+
+    /// Why and when it ends.
+    #[getter]
+    fn end(&self) -> EvolutionEnd {
+        EvolutionEnd(self.evolution.end())
+    }
+
+    /// The first and the last time that it reaches.
+    #[getter]
+    fn reached(&self) -> (f64, f64) {
+        self.evolution.reached().into()
+    }
+
+    /// The averaging: "orbit" or "spin".
+    #[getter]
+    fn average(&self) -> String {
+        self.evolution.average().to_string()
+    }
+
+    /// The scene.
+    #[getter]
+    fn scene(&self) -> Scene {
+        Scene { calendar: self.calendar, ..Scene::from(self.evolution.scene().clone()) }
+    }
+
+    fn __repr__(&self) -> String {
+        let [first, last] = self.evolution.reached();
+        format!("<Evolution from {first:?} to {last:?}: {}>", self.evolution.end().reason)
+    }
+}
+
+impl Evolution {
+    /// Times on the scale of the scene, and the shape of what is computed at them.
+    fn times(&self, times: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<usize>)> {
+        let times = Times::new(times, self.calendar, true)?;
+        let epoch = if times.since_epoch() { self.evolution.scene().state().epoch } else { 0.0 };
+        let shape = times.rows(1)?.shape().to_vec();
+        Ok((times.values()?.iter().map(|time| time + epoch).collect(), shape[..shape.len() - 1].to_vec()))
+    }
+}
+
+/// The end of an evolution, from `Evolution.end`.
+#[pyclass(frozen, eq, module = "andoyer")]
+#[derive(PartialEq)]
+pub(crate) struct EvolutionEnd(evolutions::EvolutionEnd);
+
+immutable!(EvolutionEnd);
+
+#[pymethods]
+impl EvolutionEnd {
+    /// Why it ends: "span"; "separatrix", after which the mode depends on lost phases; "slow rotation" or "near sphere", where rotation or wobble is no longer fast against the torque.
+    #[getter]
+    fn reason(&self) -> String {
+        self.0.reason.to_string()
+    }
+
+    /// When it ends.
+    #[getter]
+    fn time(&self) -> f64 {
+        self.0.time
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<EvolutionEnd: {} at {:?}>", self.0.reason, self.0.time)
+    }
+}
+
+/// Averaged states at times, from `Evolution.at`: arrays whose first axis is that of the times.
+#[pyclass(frozen, module = "andoyer")]
+pub(crate) struct EvolvedStates {
+    states: Vec<Evolved>,
+    leading: Vec<usize>,
+}
+
+immutable!(EvolvedStates);
+
+impl EvolvedStates {
+    fn numbers<'py>(&self, py: Python<'py>, of: impl Fn(&Evolved) -> f64) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let values: Vec<f64> = self.states.iter().map(of).collect();
+        values.into_pyarray(py).reshape(self.leading.clone())
+    }
+
+    fn vectors<'py>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(&Evolved) -> [f64; 3],
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let values: Vec<f64> = self.states.iter().flat_map(of).collect();
+        values.into_pyarray(py).reshape([&self.leading[..], &[3]].concat())
+    }
+}
+
+#[pymethods]
+impl EvolvedStates {
+    /// The times, shape (n,).
+    #[getter]
+    fn times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.numbers(py, |state| state.time)
+    }
+
+    /// Angular momentum, inertial, in moment × rate, shape (n, 3).
+    #[getter]
+    fn momentum<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.vectors(py, |state| state.momentum)
+    }
+
+    /// Its direction: unit vectors, shape (n, 3).
+    #[getter]
+    fn direction<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.vectors(py, |state| state.direction())
+    }
+
+    /// ξ, the excess of energy, shape (n,): 2CE/M² − 1 in the short-axis mode, 1 − 2AE/M² in the long-axis mode.
+    #[getter]
+    fn excess<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.numbers(py, |state| state.excess)
+    }
+
+    /// 2π M/2E, the spin period, of a tumbler an effective one, shape (n,).
+    #[getter]
+    fn spin_period<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.numbers(py, |state| state.spin_period)
+    }
+
+    /// Angle between the angular momentum and the normal of the first orbit, in rad, shape (n,); None without an orbit.
+    #[getter]
+    fn obliquity<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArrayDyn<f64>>>> {
+        if self.states.iter().any(|state| state.obliquity.is_none()) {
+            return Ok(None);
+        }
+        self.numbers(py, |state| state.obliquity.unwrap_or_default()).map(Some)
+    }
+
+    /// The mode: "short-axis" or "long-axis"; an evolution stays in its mode.
+    #[getter]
+    fn mode(&self) -> Option<String> {
+        self.states.first().map(|state| state.mode.to_string())
+    }
+
+    /// Mean periods of the precession of the axis and of the motion about it, by convention as `Motion.periods`, arrays of shape (n,).
+    #[getter]
+    fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let of = |convention| {
+            let precession = self.numbers(py, |state| state.periods(convention).precession);
+            let rotation = self.numbers(py, |state| state.periods(convention).rotation);
+            Ok((convention, (precession?, rotation?)))
+        };
+        let pairs = andoyer_propagate::options::Convention::ALL.into_iter().map(of).collect::<PyResult<Vec<_>>>()?;
+        crate::mean::periods(py, "PeriodsOfMembers", pairs)
+    }
+
+    fn __len__(&self) -> PyResult<usize> {
+        let refused = || pyo3::exceptions::PyTypeError::new_err("states at a scalar time have no len()");
+        self.leading.first().copied().ok_or_else(refused)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<EvolvedStates at {} times>", self.states.len())
+    }
+}
