@@ -124,7 +124,7 @@ pub mod evolutions {
     //! Weak torques averaged over the rotation: mean rates, and the motion over years to millions of years.
     pub use crate::evolution::averaged_scene::Evolved;
     pub use crate::evolution::drift::Drift;
-    pub use crate::evolution::evolve::{Evolution, EvolveOptions};
+    pub use crate::evolution::evolve::{Evolution, EvolutionPlan, EvolveOptions};
     pub use crate::evolution::path::EvolutionEnd;
     pub use crate::evolution::weakness::EndReason;
 }

@@ -224,6 +224,12 @@ impl Evolution {
         EvolutionEnd(self.evolution.end())
     }
 
+    /// What is known of its error; each call integrates the full equations over thirty rotations.
+    #[getter]
+    fn plan(&self, py: Python<'_>) -> PyResult<EvolutionPlan> {
+        detached(py, error::propagation, || self.evolution.plan()).map(EvolutionPlan)
+    }
+
     /// The first and the last time that it reaches.
     #[getter]
     fn reached(&self) -> (f64, f64) {
@@ -281,6 +287,38 @@ impl EvolutionEnd {
 
     fn __repr__(&self) -> String {
         format!("<EvolutionEnd: {} at {:?}>", self.0.reason, self.0.time)
+    }
+}
+
+/// What is known of the error of an evolution, from `Evolution.plan`.
+#[pyclass(frozen, eq, module = "andoyer")]
+#[derive(PartialEq)]
+pub(crate) struct EvolutionPlan(evolutions::EvolutionPlan);
+
+immutable!(EvolutionPlan);
+
+#[pymethods]
+impl EvolutionPlan {
+    /// Estimated error of the angular momentum at the farther end, over its size at the epoch: the rate of second order times the time, and the truncation times the change. Resonances on the way are not in it.
+    #[getter]
+    fn error_bound(&self) -> f64 {
+        self.0.error_bound
+    }
+
+    /// What the polynomials of shapes leave out, relative to the torque.
+    #[getter]
+    fn truncation(&self) -> f64 {
+        self.0.truncation
+    }
+
+    /// Rates at which averages and full equations separate, in 1/time: of the angular momentum over its size, and of the excess of energy.
+    #[getter]
+    fn second_order(&self) -> (f64, f64) {
+        self.0.second_order.into()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<EvolutionPlan: error bound {:.1e}, truncation {:.1e}>", self.0.error_bound, self.0.truncation)
     }
 }
 

@@ -74,7 +74,7 @@ mod _core {
         Error, FileError, InputError, InternalError, RepresentationError, TheoryError, ToleranceWarning,
     };
     #[pymodule_export]
-    use super::evolution::{Drift, Evolution, EvolutionEnd, EvolvedStates};
+    use super::evolution::{Drift, Evolution, EvolutionEnd, EvolutionPlan, EvolvedStates};
     #[pymodule_export]
     use super::kernel::{_clock_code, _frame_code, _write_motion, _write_samples};
     #[pymodule_export]

@@ -27,6 +27,19 @@ def test_evolution_is_the_integration_to_first_order(axis, sign):
     assert errors[1] < 1.5 * errors[0]
 
 
+def test_the_plan_predicts_the_error():
+    momentum, excess = np.array([0.3, -0.4, 0.85]), 0.3 * separatrix(0)
+    texts, _ = random_texts(3, 1, 3e-4)
+    torque = Torque.polynomial(texts, sources={"s": SOURCE})
+    scene = Scene(Body(MOMENTS), *state(0, 1, excess, momentum), torques=[torque], span=(0, 900), tolerance=1e-10)
+    evolution, times = scene.evolve(tolerance=1e-10), np.linspace(800, 900, 401)
+    difference = (scene.solve().angular_momentum(times) - evolution.at(times).momentum).mean(axis=0)
+    plan = evolution.plan
+    assert plan.truncation == 0
+    assert np.linalg.norm(difference) / np.linalg.norm(momentum) < 3 * plan.error_bound
+    assert plan.error_bound < 0.05
+
+
 def test_evolution_solves_the_averaged_equations():
     # DOP853 of SciPy on the rates of `drift` at ξ and G of the step.
     texts, _ = random_texts(3, 9, 1e-3)

@@ -73,7 +73,7 @@ impl Dissipation {
     /// - [`Error::Dissipation`] for a body flatter than 1 : 1000, for semi-axes with other ratios than the moments need, and for units in which the moments or the strain
     ///   energy are no normal doubles.
     pub fn new(body: &Body, size: Size, material: Material) -> Result<Self, Error> {
-        let moments = body.moments();
+        let moments = settled(body.moments());
         if moments.iter().all(|moment| *moment == moments[0]) {
             let reason = "a sphere has no polhode, and no harmonic loads it".to_owned();
             return Err(Error::NoDissipation { argument: "body", value: format!("{moments:?}"), reason });
@@ -134,7 +134,8 @@ impl Dissipation {
         response * self.energy_unit()
     }
 
-    /// ϱ (M/C)² R1² / S with the longest semi-axis R1: the relative error of the power by theory of first order in the deformation is of this size.
+    /// ϱ (M/C)² R1² / S with the longest semi-axis R1. The relative error of the power by theory of first order in the deformation is of this size, over the smallest
+    /// relative difference of two moments that are not equal: a deformation changes the frequency of the wobble by as much.
     ///
     /// # Errors
     /// Those of [`Dissipation::power`] for a scene.
@@ -270,7 +271,7 @@ impl Dissipation {
         }
         let turn = scene.body().turn();
         let scene = turn.map_or(scene.clone(), |turn| scene.about_principal_axes(turn));
-        let Some(polhode) = Polhode::new(scene.body(), scene.state()) else {
+        let Some(polhode) = Polhode::new(&Body::new(settled(scene.body().moments()))?, scene.state()) else {
             return Ok(Tumbling { mean_rate: 0.0, swing: None, separatrix: false });
         };
         let mode = Mode::of(&polhode);
@@ -282,6 +283,17 @@ impl Dissipation {
         let tumbles = matches!(mode, Mode::ShortAxis | Mode::LongAxis | Mode::Axisymmetric);
         Ok(Tumbling { mean_rate, swing: tumbles.then_some(swing), separatrix: mode == Mode::Separatrix })
     }
+}
+
+/// The moments, of which those that differ by the rounding of a tensor are equal: the modes of a symmetric body are others.
+fn settled(mut moments: [f64; 3]) -> [f64; 3] {
+    let largest = moments.into_iter().fold(0.0, f64::max);
+    for (i, j) in [(0, 1), (1, 2), (0, 2)] {
+        if (moments[i] - moments[j]).abs() <= SAME_RATIO * largest {
+            moments[j] = moments[i];
+        }
+    }
+    moments
 }
 
 /// Whether two bodies have the same ratios of moments.

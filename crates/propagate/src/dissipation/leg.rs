@@ -1,6 +1,7 @@
 //! The time of one mode's part of a relaxation, as a function of y = ln(x/(1 − x)) (docs/relaxation.md, equation 17).
 //!
-//! |dt/dy| is analytic in |Im y| < π, falls as y e^(−y) towards the separatrix, and is constant to e^y at the other end. On panels it is a sum of Legendre
+//! |dt/dy| is analytic in |Im y| < π, falls as y e^(−y) towards the separatrix, and is constant to e^y at the other end. With two equal moments it falls as e^(−y/2), and with
+//! a loss ∝ f^s as e^(−y(1 − s)/2): for s ≥ 1 the time from the separatrix is infinite. On panels it is a sum of Legendre
 //! polynomials from Gauss's rule with 16 points, and its integral has the same coefficients. A panel is halved until its last two terms are negligible.
 
 use std::f64::consts::PI;
@@ -125,11 +126,13 @@ pub(super) struct Leg {
     /// The time from the separatrix to y = −40, and |dt/dy| below.
     whole: f64,
     tail: f64,
+    /// Whether the time from the separatrix is infinite: times are counted from the largest y.
+    open: bool,
 }
 
 impl Leg {
     /// The times from y = `top` down, from |dt/dy|.
-    pub(super) fn new(top: f64, slope: &impl Fn(f64) -> Result<f64, Error>) -> Result<Self, Error> {
+    pub(super) fn new(top: f64, is_open: bool, slope: &impl Fn(f64) -> Result<f64, Error>) -> Result<Self, Error> {
         let rule = gauss_rule();
         let count = ((top - BOTTOM) / LONGEST).ceil();
         let half = 0.5 * (top - BOTTOM) / count;
@@ -147,7 +150,11 @@ impl Leg {
                 open.push((top, 0.5 * half, halvings + 1));
             }
         }
-        Ok(Self { panels, whole, tail })
+        Ok(Self { panels, whole, tail, open: is_open })
+    }
+
+    pub(super) fn is_open(&self) -> bool {
+        self.open
     }
 
     /// The time from the separatrix to y, or back.

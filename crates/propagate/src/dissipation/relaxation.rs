@@ -14,6 +14,10 @@ use crate::torque_free::mode::Mode;
 
 /// |dt/dy| falls by this factor, as e^(−40), before it is neglected.
 const FALL: f64 = 40.0;
+/// |dt/dy| next to the separatrix, relative to that of small angles, that is neglected.
+const NEGLIGIBLE: f64 = 1e-14;
+/// The largest y: 1 − x = e^(−y) and its square are normal doubles.
+const FARTHEST: f64 = 320.0;
 
 /// A relaxation, from [`Dissipation::relax`]. Its times are counted from the state of the scene; negative ones are in the past.
 #[derive(Clone, Debug)]
@@ -48,10 +52,14 @@ impl Relaxation {
             if axes.range == 0.0 {
                 return Ok(None);
             }
-            // The integrand falls as e^(−y/2) up to y = −ln d and as e^(−y) from there.
-            let top = FALL + (-axes.spread.ln()).clamp(0.0, FALL);
             let slope = |y: f64| dissipation.slope(&axes, Swing::new(long_axis, y), mean_rate);
-            Leg::new(top, &slope).map(Some)
+            // The integrand falls as e^(−y/2) up to y = −ln d and as e^(−y) from there; slower if d = 0 and the loss falls with the frequency.
+            let mut top = FALL + (-axes.spread.ln()).clamp(0.0, FALL);
+            let negligible = NEGLIGIBLE * slope(-FALL)?;
+            while top < FARTHEST && slope(top)? > negligible {
+                top = (2.0 * top).min(FARTHEST);
+            }
+            Leg::new(top, slope(top)? > negligible, &slope).map(Some)
         };
         let (long, short) = (leg(true)?, leg(false)?);
         let mut relaxation = Self { dissipation, mean_rate, long, short, now: 0.0 };
@@ -67,15 +75,21 @@ impl Relaxation {
             (&self.short, Mode::ShortAxis, "two largest", 1.0)
         };
         let none = || Error::NoSuchMode { mode: mode.to_string(), moments: self.dissipation.moments(), pair };
-        Ok(sign * leg.as_ref().ok_or_else(none)?.time(y))
+        let leg = leg.as_ref().ok_or_else(none)?;
+        if leg.is_open() && y > FARTHEST {
+            let bound = "below π/2: the loss of the material falls with the frequency, and the way from the separatrix takes an infinite time";
+            return Err(refused("angle", FRAC_PI_2, bound));
+        }
+        Ok(sign * leg.time(y))
     }
 
     /// The time after the state at which the largest angle between the angular momentum and the axis of a mode is `angle`; negative if it was before.
     ///
-    /// An angle of π/2 is the separatrix. The time to an angle of 0 would be infinite: the last part is exponential.
+    /// An angle of π/2 is the separatrix. The time to an angle of 0 would be infinite: the last part is exponential. So is the time from the separatrix if two moments are equal
+    /// and the loss of the material vanishes with the frequency, at least as fast: the frequency goes to 0 there.
     ///
     /// # Errors
-    /// - [`Error::Dissipation`] for an angle that is not above 0 and at most π/2.
+    /// - [`Error::Dissipation`] for an angle that is not above 0 and at most π/2, and for π/2 where the time is infinite.
     /// - [`Error::ModeName`] for another mode than the long-axis and the short-axis mode, [`Error::NoSuchMode`] for one that the body does not have.
     pub fn time_to(&self, angle: f64, mode: Mode) -> Result<f64, Error> {
         Ok(self.time_of(long_axis(mode)?, logit("angle", angle)?)? - self.now)
@@ -95,7 +109,9 @@ impl Relaxation {
             (false, _, Some(leg)) => (false, leg.place(passed)),
             (false, _, None) => (true, f64::INFINITY),
             (true, None, _) => {
-                let bound = format!("at least {:.6e}, when the body rotated about an axis of least inertia", -self.now);
+                let then = if self.short.as_ref().is_some_and(Leg::is_open) { "next to" } else { "about" };
+                let bound =
+                    format!("at least {:.6e}, when the body rotated {then} an axis of least inertia", -self.now);
                 return Err(refused("times", time, &bound));
             }
         };
@@ -122,7 +138,10 @@ pub(super) fn long_axis(mode: Mode) -> Result<bool, Error> {
 
 /// y = ln(x/(1 − x)) = 2 ln tan θ of a largest angle θ.
 fn logit(argument: &'static str, angle: f64) -> Result<f64, Error> {
-    if angle > 0.0 && angle <= FRAC_PI_2 {
+    if angle == FRAC_PI_2 {
+        return Ok(f64::INFINITY);
+    }
+    if angle > 0.0 && angle < FRAC_PI_2 {
         return Ok(2.0 * angle.tan().ln());
     }
     Err(refused(argument, angle, "above 0 and at most π/2"))

@@ -32,7 +32,7 @@ pub(super) const BLOCK: usize = 64;
 /// assert!((attitudes[3][3] - 1.0).abs() < 1e-15);
 /// # Ok::<(), andoyer_propagate::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Ensemble {
     /// Principal moments; NaN for a tensor that has none.
     moments: Vec<[f64; 3]>,

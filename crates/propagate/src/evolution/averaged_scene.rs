@@ -60,6 +60,8 @@ impl Evolved {
 /// A scene that can be averaged: its equations and its state.
 #[derive(Clone, Debug)]
 pub(super) struct AveragedScene {
+    /// About principal axes.
+    pub(super) scene: Scene,
     pub(super) equations: AveragedTorques,
     pub(super) momentum: Vector3<f64>,
     pub(super) excess: f64,
@@ -88,7 +90,7 @@ impl AveragedScene {
         };
         let equations = AveragedTorques::new(&scene, family)?;
         let attitude = sorted_attitude(&scene.state().attitude, &sort);
-        let mut problem = Self { equations, momentum, excess, attitude };
+        let mut problem = Self { scene, equations, momentum, excess, attitude };
         Weakness::of(&problem.equations, problem.equations.epoch, size, &mut Scratch::default())?.validate()?;
         problem.choose(average)?;
         Ok(problem)

@@ -8,6 +8,7 @@ use super::averaged_scene::{AveragedScene, Evolved};
 use super::path::{AveragedPath, EvolutionEnd, Node, Scaled};
 use super::short_period::ShortPeriod;
 use super::weakness::EndReason;
+use super::window::second_order;
 use crate::error::Error;
 use crate::input::options::Averaging;
 use crate::input::scene::Scene;
@@ -66,6 +67,27 @@ impl Evolution {
         if forward.reason == EndReason::Span && backward.reason != EndReason::Span { backward } else { forward }
     }
 
+    /// What is known of its error. It integrates the full equations over thirty rotations.
+    ///
+    /// # Errors
+    /// Those of [`Scene::solve`] for these rotations.
+    pub fn plan(&self) -> Result<EvolutionPlan, Error> {
+        let truncations = self.scene.asked_torques().iter().map(|torque| torque.truncation());
+        let truncation = truncations.map(|part| part * part).sum::<f64>().sqrt();
+        let second_order = second_order(&self.problem)?;
+        let epoch = self.problem.equations.epoch;
+        let length = |path: &AveragedPath| {
+            let change = |pair: &[Node]| {
+                let [one, other] = [pair[0].state, pair[1].state].map(|[x, y, z, _]| Vector3::new(x, y, z));
+                (other - one).norm()
+            };
+            second_order[0] * (path.end.time - epoch).abs()
+                + truncation * path.nodes.windows(2).map(change).sum::<f64>()
+        };
+        let error_bound = self.paths.iter().map(length).fold(0.0, f64::max);
+        Ok(EvolutionPlan { error_bound, truncation, second_order })
+    }
+
     /// The first and the last time.
     pub fn reached(&self) -> [f64; 2] {
         self.paths.each_ref().map(|path| path.end.time)
@@ -86,6 +108,18 @@ impl Evolution {
         let over = self.problem.equations.sources.iter().any(|source| source.over_orbit);
         if over { Averaging::Orbit } else { Averaging::Spin }
     }
+}
+
+/// What is known of the error of an evolution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EvolutionPlan {
+    /// Estimated error of the angular momentum at the farther end, over its size at the epoch: the rate of second order times the time, and the truncation times the change. Resonances
+    /// that are passed are not in it.
+    pub error_bound: f64,
+    /// What the polynomials of shapes leave out, relative to the torque.
+    pub truncation: f64,
+    /// Rates at which averages and full equations separate [1/time]: of the angular momentum over its size, and of ξ.
+    pub second_order: [f64; 2],
 }
 
 /// Options of an evolution.

@@ -19,3 +19,4 @@ mod sources;
 pub(crate) mod sphere;
 mod torus;
 pub(crate) mod weakness;
+mod window;

@@ -652,6 +652,9 @@ class Evolution:
     def end(self) -> EvolutionEnd:
         """Why and when it ends."""
     @property
+    def plan(self) -> EvolutionPlan:
+        """What is known of its error; each call integrates the full equations over thirty rotations."""
+    @property
     def reached(self) -> tuple[float, float]:
         """The first and the last time that it reaches."""
     @property
@@ -676,6 +679,23 @@ class EvolutionEnd:
     def __eq__(self, other: object, /) -> bool: ...
     def __copy__(self) -> EvolutionEnd: ...
     def __deepcopy__(self, _memo: Any) -> EvolutionEnd: ...
+
+@final
+class EvolutionPlan:
+    """What is known of the error of an evolution, from `Evolution.plan`."""
+
+    @property
+    def error_bound(self) -> float:
+        """Estimated error of the angular momentum at the farther end, over its size at the epoch: the rate of second order times the time, and the truncation times the change. Resonances on the way are not in it."""
+    @property
+    def truncation(self) -> float:
+        """What the polynomials of shapes leave out, relative to the torque."""
+    @property
+    def second_order(self) -> tuple[float, float]:
+        """Rates at which averages and full equations separate, in 1/time: of the angular momentum over its size, and of the excess of energy."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __copy__(self) -> EvolutionPlan: ...
+    def __deepcopy__(self, _memo: Any) -> EvolutionPlan: ...
 
 @final
 class EvolvedStates:
