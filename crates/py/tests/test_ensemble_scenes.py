@@ -124,6 +124,13 @@ def test_clones_have_the_periods_asked_for_and_those_that_no_body_can_have_are_c
     np.testing.assert_allclose(periods.rotation[served], rotation[served], rtol=1e-12)
     alone = Scene.from_periods(body, precession[3], rotation[3], mode="short-axis", momentum_direction=directions[3], **options)
     np.testing.assert_array_equal(clones.attitude(50.0)[3], alone.solve().attitude(50.0))
+    assert clones == Ensemble.from_periods(body, precession, rotation, "short-axis", directions, errors="nan", **options) and clones.epochs == 10.0
+    with pytest.raises(TypeError, match="member 7 has no scene"):
+        pickle.dumps(clones)
+    one = Ensemble.from_periods([body], precession[:1], rotation[:1], "short-axis", directions[:1], span=None, **options)
+    np.testing.assert_array_equal(one.attitude(50.0)[0], clones.attitude(50.0)[0])
+    with pytest.raises(andoyer.InputError, match="precession has 20 members and rotation 1"):
+        Ensemble.from_periods(body, precession, rotation[:1])
     with pytest.raises(andoyer.InputError, match="precession has 20 members and rotation 3"):
         Ensemble.from_periods(body, precession, rotation[:3])
     with pytest.raises(TypeError, match="order is not an option"):
@@ -161,6 +168,14 @@ def test_a_member_that_does_not_reach_the_time_is_counted_out():
         warnings.simplefilter("error")
         found = ensemble.after(20.0)
     assert list(found.errors) == [0] and found.mode[0] == "" and np.isnan(found.momentum[0]) and len(found.share()) == 1
+
+
+def test_what_scenes_do_not_have_in_common_is_none_and_no_motion_has_no_quantile():
+    free = {"body": Body([1, 1.5, 2]), "attitude": [0, 0, 0, 1], "angular_velocity": [0.1, 0.2, 1]}
+    mixed = Ensemble.from_scenes([Scene(**free, tolerance=1e-9), Scene(**free, tolerance=1e-6, torques=Torque.damping(0.1), span=(0, 1))])
+    assert mixed.tolerance is None and mixed.torques is None and mixed.span is None and mixed.method == "auto"
+    assert Ensemble.from_scenes([Scene(**free, tolerance=1e-9)] * 2).tolerance == 1e-9
+    assert all(np.isnan(value) for value in Ensemble.from_scenes([]).after(0.0).quantiles(0.5).values())
 
 
 def test_a_distribution_is_drawn_by_mode():

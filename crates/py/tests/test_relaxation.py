@@ -272,3 +272,32 @@ def test_scalar_times_have_no_axis():
     assert_allclose(states.angle, angle(0.3), rtol=1e-14)
     with pytest.raises(TypeError):
         len(states)
+
+
+def test_a_loss_that_vanishes_with_the_frequency_has_no_time_from_the_separatrix_of_a_symmetric_body():
+    """Kelvin and Voigt: |dt/dy| tends to a constant there, and the time grows by the same for each power of ten of the angle."""
+    rock = andoyer.Material(density=1.0, rigidity=1.0, loss=lambda f: 1e-3 * f / (1 + (1e-3 * f) ** 2))
+    made = andoyer.Dissipation(andoyer.Body([1, 1, 1.5]), 1.0, rock)
+    relaxation = made.relax(andoyer.Scene(made.body, [0, 0, 0, 1], [0.3, 0, 1]))
+    times = [relaxation.time_to(math.pi / 2 - 10.0**-k) for k in (3, 4, 5, 6)]
+    assert_allclose(np.diff(times, 2), 0, atol=1e-5 * abs(times[1] - times[0]))
+    with pytest.raises(andoyer.InputError, match="infinite time"):
+        relaxation.time_to(math.pi / 2)
+    quality = andoyer.Dissipation(made.body, 1.0, andoyer.Material(density=1.0, rigidity=1.0, quality=100.0))
+    assert math.isfinite(quality.relax(andoyer.Scene(made.body, [0, 0, 0, 1], [0.3, 0, 1])).time_to(math.pi / 2))
+
+
+def test_spheres_and_symmetric_bodies_from_turned_tensors_are_what_they_are():
+    random, rock = np.random.default_rng(4), andoyer.Material(density=1.0, rigidity=1.0, quality=1.0)
+    expected = andoyer.Dissipation(andoyer.Body([1, 1, 1.5]), 1.0, rock)
+    for _ in range(10):
+        turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+        with pytest.raises(andoyer.InputError, match="a sphere"):
+            andoyer.Dissipation(andoyer.Body.from_inertia(turn @ turn.T), 1.0, rock)
+        turn *= np.linalg.det(turn)
+        body = andoyer.Body.from_inertia(turn @ np.diag([1, 1, 1.5]) @ turn.T)
+        relaxation = andoyer.Dissipation(body, 1.0, rock).relax(andoyer.Scene(body, [0, 0, 0, 1], turn @ [0.3, 0, 1]))
+        alone = expected.relax(andoyer.Scene(expected.body, [0, 0, 0, 1], [0.3, 0, 1]))
+        assert_allclose(relaxation.time_to(0.05), alone.time_to(0.05), rtol=1e-11)
+        with pytest.raises(andoyer.Error):
+            relaxation.time_to(0.1, mode="long-axis")

@@ -46,9 +46,12 @@ impl Ensemble {
             let moments = scenes.iter().map(|scene| scene.as_ref().map_or(none, |scene| scene.body().moments()));
             Self::new_or(moments.collect(), attitudes, rates, OnError::Nan, &GOING)?
         };
-        let epochs: Vec<f64> = scenes.iter().map(|scene| state(scene).map_or(0.0, |state| state.epoch)).collect();
-        let orbits =
-            scenes.iter().map(|scene| scene.as_ref().map_or(Vec::new(), |scene| scene.asked_disturbing().to_vec()));
+        // A member without a scene has the epoch and the orbits of the first that has one: what all have in common is kept once.
+        let first = valid().next();
+        let epoch = |scene| state(scene).or(first.map(|scene| *scene.state())).map_or(0.0, |state| state.epoch);
+        let epochs: Vec<f64> = scenes.iter().map(epoch).collect();
+        let of_scene = |scene: &Scene| scene.asked_disturbing().to_vec();
+        let orbits = scenes.iter().map(|scene| scene.as_ref().ok().or(first).map_or(Vec::new(), of_scene));
         let columns = if scenes.is_empty() { columns } else { columns.epochs(epochs)?.orbits(orbits.collect())? };
         let mut ensemble = columns.in_common(&valid().collect::<Vec<_>>());
         (ensemble.scenes, ensemble.on_error) = (scenes, on_error);
@@ -79,6 +82,13 @@ impl Ensemble {
         }
     }
 
+    /// Whether all members have the same of an option; members of columns have.
+    pub fn has_in_common<T: PartialEq>(&self, of: impl Fn(&Scene) -> T) -> bool {
+        let mut values = self.scenes.iter().flatten().map(of);
+        let first = values.next();
+        values.all(|value| Some(value) == first)
+    }
+
     /// The scenes of [`Ensemble::from_scenes`]; none for an ensemble from columns.
     pub fn asked_scenes(&self) -> &[Result<Scene, Error>] {
         &self.scenes
@@ -93,5 +103,21 @@ impl Ensemble {
             Some(scene) => scene.as_ref().map_err(Error::clone)?.validated(),
             None => self.scene_of_columns(index),
         }
+    }
+}
+
+/// Ensembles of scenes are equal if these are: columns of members that were refused are not numbers.
+impl PartialEq for Ensemble {
+    fn eq(&self, other: &Self) -> bool {
+        let same_columns = || {
+            self.moments() == other.moments()
+                && self.asked_tensors() == other.asked_tensors()
+                && self.attitudes() == other.attitudes()
+                && self.angular_velocities() == other.angular_velocities()
+        };
+        self.on_error == other.on_error
+            && self.options == other.options
+            && self.scenes == other.scenes
+            && (!self.scenes.is_empty() || same_columns())
     }
 }

@@ -841,11 +841,11 @@ class Ensemble:
     def scenes(self) -> list[Scene | None]:
         """The scene of every member, a list. With ``errors="nan"`` the scene of a member that is not a valid body or state is None."""
     @property
-    def torques(self) -> tuple[Torque, ...]:
-        """The torques beside the gravity gradient on all members, a tuple."""
+    def torques(self) -> tuple[Torque, ...] | None:
+        """The torques beside the gravity gradient on all members, a tuple; None where members of `from_scenes` differ."""
     @property
-    def level(self) -> str:
-        """The level asked for: "auto", "full", "second-order", "moving" or "paper"."""
+    def level(self) -> str | None:
+        """The level asked for: "auto", "full", "second-order", "moving" or "paper"; None where members of `from_scenes` differ."""
     def at(self, times: ArrayLike, *, scalar_first: bool = False) -> Samples:
         """Evaluates attitudes and angular velocities of all members in one pass."""
     def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:
@@ -886,17 +886,17 @@ class Ensemble:
     def angular_velocities(self) -> _Array:
         """The angular velocities at the epoch in body components, in rad per unit of time: a read-only array, shape (m, 3)."""
     @property
-    def tolerance(self) -> float:
-        """The requested attitude error, in rad."""
+    def tolerance(self) -> float | None:
+        """The requested attitude error, in rad; None where members of `from_scenes` differ."""
     @property
-    def method(self) -> Literal["auto", "series", "closed", "integrated", "libration"]:
-        """The method asked for: "auto", "series", "closed", "integrated" or "libration"."""
+    def method(self) -> Literal["auto", "series", "closed", "integrated", "libration"] | None:
+        """The method asked for: "auto", "series", "closed", "integrated" or "libration"; None where members of `from_scenes` differ."""
     @property
     def orbits(self) -> Orbit | list[Orbit | None] | None:
         """The orbits: an Orbit for all members, a list of one or None for each, or None."""
     @property
     def span(self) -> tuple[float, float] | None:
-        """The span, the times over which `tolerance` is requested, or None."""
+        """The span, the times over which `tolerance` is requested, or None; None too where members of `from_scenes` differ."""
     @property
     def threads(self) -> int | None:
         """The requested number of threads, or None."""

@@ -88,7 +88,7 @@ class Distribution:
         Returns
         -------
         dict of ndarray, of the shape of q
-            "momentum", "energy_ratio", "precession", "rotation". Members without a motion are not counted; infinite periods are the largest.
+            "momentum", "energy_ratio", "precession", "rotation". Members without a motion are not counted; NaN if there are no others. Infinite periods are the largest.
         """
         periods = self.periods["extremal-axis"]
         columns: dict[str, NDArray[np.float64]] = {
@@ -98,6 +98,8 @@ class Distribution:
             "rotation": periods.rotation,
         }
         solved = self.mode != ""
+        if not solved.any():
+            return {name: np.full(np.shape(q), np.nan) for name in columns}
         # The method takes members, and so never subtracts two infinite periods.
         parts = np.asarray(q, dtype=float)
         return {name: np.asarray(np.quantile(column[solved], parts, method="inverted_cdf")) for name, column in columns.items()}

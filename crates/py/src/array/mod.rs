@@ -23,7 +23,7 @@ pub(crate) use output::{chunks, matrices, write};
 pub(crate) use times::Times;
 
 /// `value` as a float64 array, aligned and in C order.
-fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+pub(crate) fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     // The code below would return such an array unchanged, but takes as long as some tens of samples.
     if value.is_exact_instance_of::<PyUntypedArray>()
         && let Ok(array) = value.cast::<PyArrayDyn<f64>>()

@@ -99,7 +99,7 @@ impl Bodies {
         }
     }
 
-    fn rows(&self) -> Option<usize> {
+    pub(super) fn rows(&self) -> Option<usize> {
         match self {
             Self::Moments(rows) => rows.members(),
             Self::Tensors(tensors) => tensors.members(),

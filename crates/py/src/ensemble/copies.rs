@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use andoyer_propagate::Error as Propagation;
 use andoyer_propagate::disturbers::DisturbingBody;
 use andoyer_propagate::options::Method;
-use pyo3::exceptions::PyIndexError;
+use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice, PyTuple};
 
@@ -68,6 +68,12 @@ impl Ensemble {
             let (arrays, keywords) = self.arguments(py)?;
             let new = py.import("copyreg")?.getattr("__newobj_ex__")?;
             return Ok((new, (class, arrays, keywords).into_pyobject(py)?));
+        }
+        if let Some(index) = self.0.asked_scenes().iter().position(Result::is_err) {
+            let text = format!(
+                "member {index} has no scene, so the ensemble cannot be pickled: make one of those in Ensemble.scenes"
+            );
+            return Err(PyTypeError::new_err(text));
         }
         let keywords = PyDict::new(py);
         keywords.set_item("errors", self.0.asked_on_error().to_string())?;

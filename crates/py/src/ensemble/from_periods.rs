@@ -11,7 +11,7 @@ use pyo3::types::PyDict;
 
 use super::arguments::{asked, orbits_given, tolerance};
 use super::bodies::Bodies;
-use crate::array::{MemberRows, numbers_of, span as span_of};
+use crate::array::{MemberRows, numbers, numbers_of, span as span_of};
 use crate::computing::detached;
 use crate::error;
 use crate::foreign::Calendar;
@@ -20,16 +20,36 @@ use crate::scene::arguments::epoch as epoch_of;
 use crate::torque;
 
 /// One value for all members, or one for each.
-struct Column<T>(Vec<T>);
+enum Column<T> {
+    OfAll(T),
+    OfEach(Vec<T>),
+}
 
 impl<T: Clone> Column<T> {
+    /// One value, or an axis of them.
+    fn new(mut values: Vec<T>, has_axis: bool) -> Self {
+        match values.pop() {
+            Some(value) if !has_axis => Self::OfAll(value),
+            last => {
+                values.extend(last);
+                Self::OfEach(values)
+            }
+        }
+    }
+
     fn of(&self, index: usize) -> T {
-        if self.0.len() == 1 { self.0[0].clone() } else { self.0[index].clone() }
+        match self {
+            Self::OfAll(value) => value.clone(),
+            Self::OfEach(values) => values[index].clone(),
+        }
     }
 
     /// The number of members that the column has a value for, if it is not one for all.
     fn members(&self, name: &'static str) -> Option<(&'static str, usize)> {
-        (self.0.len() != 1).then_some((name, self.0.len()))
+        match self {
+            Self::OfAll(_) => None,
+            Self::OfEach(values) => Some((name, values.len())),
+        }
     }
 }
 
@@ -51,12 +71,14 @@ impl Clones {
         directions: Option<&Bound<'_, PyAny>>,
         phases: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let bodies = Column(Bodies::any(bodies)?.each());
-        let periods = [numbers_of("precession", precession)?, numbers_of("rotation", rotation)?].map(Column);
-        let modes = Column(mode.map_or_else(|| Ok(vec![Mode::ShortAxis]), modes_of)?);
-        let directions = Column(directions.map_or_else(|| Ok(vec![Ok(Vector3::z())]), directions_of)?);
+        let bodies = Bodies::any(bodies)?;
+        let has_axis = bodies.rows().is_some();
+        let bodies = Column::new(bodies.each(), has_axis);
+        let periods = [periods_of("precession", precession)?, periods_of("rotation", rotation)?];
+        let modes = mode.map_or_else(|| Ok(Column::OfAll(Mode::ShortAxis)), modes_of)?;
+        let directions = directions.map_or_else(|| Ok(Column::OfAll(Ok(Vector3::z()))), directions_of)?;
         let phases = phases.map(|value| MemberRows::new("phases", value)).transpose()?;
-        let phases = Column(phases.map_or_else(|| vec![[0.0; 2]], MemberRows::rows));
+        let phases = phases.map_or(Column::OfAll([0.0; 2]), |rows| column(rows, |phases| phases));
         let counts = [
             bodies.members("bodies"),
             periods[0].members("precession"),
@@ -112,6 +134,9 @@ impl Clones {
         let mut orbits = None;
         for (name, value) in options.into_iter().flat_map(|options| options.iter()) {
             let name: String = name.extract()?;
+            if value.is_none() && OPTIONS.contains(&&name[..]) {
+                continue;
+            }
             ensemble = match &name[..] {
                 "tolerance" => ensemble.tolerance(tolerance(&value)?),
                 "method" => ensemble.method(value.extract::<String>()?.parse().map_err(error::propagation)?),
@@ -134,30 +159,40 @@ impl Clones {
     }
 }
 
+/// The options of all scenes.
+const OPTIONS: [&str; 6] = ["orbit", "torques", "tolerance", "method", "level", "span"];
+
 fn unknown(name: &str) -> PyErr {
-    let text = format!(
-        "{name} is not an option of Ensemble.from_periods: orbit, torques, tolerance, method, level and span are"
-    );
+    let text = format!("{name} is not an option of Ensemble.from_periods: {} are", OPTIONS.join(", "));
     pyo3::exceptions::PyTypeError::new_err(text)
 }
 
-fn modes_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Mode>> {
+fn periods_of(name: &'static str, value: &Bound<'_, PyAny>) -> PyResult<Column<f64>> {
+    let periods = numbers_of(name, value)?;
+    let has_axis = numbers(name, value)?.ndim() > 0;
+    Ok(Column::new(periods, has_axis))
+}
+
+fn modes_of(value: &Bound<'_, PyAny>) -> PyResult<Column<Mode>> {
     let mode = |name: String| name.parse().map_err(error::propagation);
     match value.extract::<String>() {
-        Ok(name) => Ok(vec![mode(name)?]),
-        Err(_) => value.extract::<Vec<String>>()?.into_iter().map(mode).collect(),
+        Ok(name) => mode(name).map(Column::OfAll),
+        Err(_) => value.extract::<Vec<String>>()?.into_iter().map(mode).collect::<PyResult<_>>().map(Column::OfEach),
     }
 }
 
 /// Vectors, or longitudes and latitudes.
-fn directions_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Result<Vector3<f64>, Error>>> {
+fn directions_of(value: &Bound<'_, PyAny>) -> PyResult<Column<Result<Vector3<f64>, Error>>> {
     if let Ok(pairs) = MemberRows::<2>::new("directions", value) {
-        let towards = |[longitude, latitude]: [f64; 2]| {
+        return Ok(column(pairs, |[longitude, latitude]| {
             ObservedPeriods::new(1.0, 1.0).towards(longitude, latitude).map(|periods| periods.momentum_direction)
-        };
-        return Ok(pairs.rows().into_iter().map(towards).collect());
+        }));
     }
-    let shapes = "(m, 3), (3,), (m, 2) or (2,)";
-    let vectors = MemberRows::<3>::of_shape("directions", value, shapes)?;
-    Ok(vectors.rows().into_iter().map(|vector| Ok(vector.into())).collect())
+    let vectors = MemberRows::<3>::of_shape("directions", value, "(m, 3), (3,), (m, 2) or (2,)")?;
+    Ok(column(vectors, |vector| Ok(vector.into())))
+}
+
+fn column<const N: usize, T: Clone>(rows: MemberRows<N>, of: impl FnMut([f64; N]) -> T) -> Column<T> {
+    let has_axis = rows.members().is_some();
+    Column::new(rows.rows().into_iter().map(of).collect(), has_axis)
 }

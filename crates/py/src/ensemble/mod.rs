@@ -232,16 +232,17 @@ impl Ensemble {
         (0..self.0.len()).map(scene).collect()
     }
 
-    /// The torques beside the gravity gradient on all members, a tuple.
+    /// The torques beside the gravity gradient on all members, a tuple; None where members of `from_scenes` differ.
     #[getter]
-    fn torques<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        torque::tuple(py, self.0.asked_torques())
+    fn torques<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyTuple>>> {
+        let same = self.0.has_in_common(|scene| scene.asked_torques().to_vec());
+        same.then(|| torque::tuple(py, self.0.asked_torques())).transpose()
     }
 
-    /// The level asked for: "auto", "full", "second-order", "moving" or "paper".
+    /// The level asked for: "auto", "full", "second-order", "moving" or "paper"; None where members of `from_scenes` differ.
     #[getter]
-    fn level(&self) -> String {
-        self.0.asked_level().to_string()
+    fn level(&self) -> Option<String> {
+        self.0.has_in_common(andoyer_propagate::Scene::asked_level).then(|| self.0.asked_level().to_string())
     }
 
     /// The moments about body axes 1, 2, 3: a read-only array, shape (m, 3). If tensors were given, they are the principal moments, as `Body.moments`.
@@ -514,16 +515,16 @@ impl Ensemble {
         constant_rows(py, self.0.angular_velocities())
     }
 
-    /// The requested attitude error, in rad.
+    /// The requested attitude error, in rad; None where members of `from_scenes` differ.
     #[getter]
-    fn tolerance(&self) -> f64 {
-        self.0.asked_tolerance()
+    fn tolerance(&self) -> Option<f64> {
+        self.0.has_in_common(andoyer_propagate::Scene::asked_tolerance).then(|| self.0.asked_tolerance())
     }
 
-    /// The method asked for: "auto", "series", "closed", "integrated" or "libration".
+    /// The method asked for: "auto", "series", "closed", "integrated" or "libration"; None where members of `from_scenes` differ.
     #[getter]
-    fn method(&self) -> String {
-        self.0.asked_method().to_string()
+    fn method(&self) -> Option<String> {
+        self.0.has_in_common(andoyer_propagate::Scene::asked_method).then(|| self.0.asked_method().to_string())
     }
 
     /// The orbits: an Orbit for all members, a list of one or None for each, or None.
@@ -532,7 +533,7 @@ impl Ensemble {
         self.orbits_as_given(py)
     }
 
-    /// The span, the times over which `tolerance` is requested, or None.
+    /// The span, the times over which `tolerance` is requested, or None; None too where members of `from_scenes` differ.
     #[getter]
     fn span(&self) -> Option<(f64, f64)> {
         self.0.asked_span()
