@@ -42,7 +42,7 @@ pub(super) fn turned_axes(polhode: &ExcessPolhode, g: &Vector3<f64>) -> [Vector3
     [turned(Vector3::ith((axis + 1) % 3, 1.0)), turned(Vector3::ith((axis + 2) % 3, sign))]
 }
 
-/// Four functions on the torus: the torque along k, x̂ and ẑ, and ξ̇; [function][y′][ℓ′].
+/// Four functions on the torus: the torque along k, x̂ and ẑ, and ξ̇, by function, y′ and ℓ′.
 pub(super) type TorusGrid<T> = [[[T; ALONG]; ABOUT]; 4];
 
 /// The phase of a point of ℓ′, which is never 0.

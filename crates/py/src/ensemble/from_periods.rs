@@ -6,6 +6,7 @@ use andoyer_propagate::nalgebra::Vector3;
 use andoyer_propagate::options::Convention;
 use andoyer_propagate::periods::ObservedPeriods;
 use andoyer_propagate::{Body, Error, Mode, Scene};
+use numpy::PyUntypedArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
