@@ -151,8 +151,8 @@ def parser() -> Parser:
     printing.add_librations(commands.add_parser("librations", help=prints, **examples("", EXAMPLES["librations"])))
 
     writes = "write angular momentum, spin period, obliquity and excess of energy over years, averaged over the rotation"
-    told = f"{writes.capitalize()}. Columns {evolving.COLUMNS}."
-    evolving.add_command(commands.add_parser("evolve", help=writes, description=told, **examples("", EXAMPLES["evolve"])))
+    columns = f"{writes.capitalize()}. Columns {evolving.COLUMNS}."
+    evolving.add_command(commands.add_parser("evolve", help=writes, description=columns, **examples("", EXAMPLES["evolve"])))
 
     command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source", **examples("", EXAMPLES["bodies"]))
     command.set_defaults(run=printing.bodies)

@@ -41,10 +41,11 @@ def evolve(arguments: argparse.Namespace) -> int:
         raise InputError(f"argument -o/--output: {path}: the name must end in .csv, {', '.join(PICTURES)}")
     if arguments.output != "-" and not arguments.force:
         writing.refuse_existing(path)
-    first, last = scene.span or (scene.epoch, None)
-    start, stop = (given if given is not None else default for given, default in ((arguments.start, first), (arguments.stop, last)))
-    if stop is None:
+    if arguments.stop is None and scene.span is None:
         raise InputError(f"argument --stop: {arguments.scene} has no span, so the last time is needed")
+    first, last = scene.span or (scene.epoch, arguments.stop)
+    start = first if arguments.start is None else arguments.start
+    stop = last if arguments.stop is None else arguments.stop
     try:
         evolution = scene.evolve((start, stop), average=arguments.average)
     except andoyer.Error as error:

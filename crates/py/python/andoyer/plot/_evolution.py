@@ -46,6 +46,7 @@ def evolution(evolution: Evolution, times: ArrayLike | None = None, *, time_unit
         lines.append(("obliquity [°]", np.degrees(states.obliquity), VERMILION))
     lines.append(("ξ / ξ_sep", states.excess / separatrix(evolution, states.mode), GREEN))
     with plt.rc_context(STYLE):
+        figure: Figure
         figure, axes = plt.subplots(len(lines), 1, sharex=True, layout="constrained", figsize=(7, 2.2 * len(lines)))
         for axis, (name, values, colour) in zip(axes, lines, strict=True):
             axis.plot(clock.values, values, color=colour)
@@ -59,4 +60,4 @@ def evolution(evolution: Evolution, times: ArrayLike | None = None, *, time_unit
 def separatrix(evolution: Evolution, mode: str | None) -> float:
     """The excess of energy on the separatrix."""
     least, middle, largest = sorted(evolution.scene.body.moments)
-    return largest / middle - 1 if mode == "short-axis" else 1 - least / middle
+    return float(largest / middle - 1 if mode == "short-axis" else 1 - least / middle)

@@ -53,6 +53,7 @@ states = evolution.at(times)
 figure, axes = plt.subplots(3, 1, sharex=True, figsize=(7, 7), layout="constrained")
 axes[0].plot(times / year, states.spin_period)
 axes[0].set_ylabel("spin period [s]")
+assert states.obliquity is not None, "the scene has an orbit"
 axes[1].plot(times / year, np.degrees(states.obliquity))
 axes[1].set_ylabel("obliquity [°]")
 axes[2].plot(times / year, states.excess / (1 - moments[0] / moments[1]))
