@@ -175,7 +175,7 @@ impl Torque {
     /// ----------
     /// table : callable, or array_like of shape (3, (d + 1)²)
     ///     T(u): called once with unit vectors to the source in body axes, shape (n, 3), it returns torques in body axes, shape (n, 3); from ray tracing, say. Or coefficients of orthonormal real
-    ///     harmonics of degrees up to d: column l² + l + m is P_l^|m|(cos θ) times √2 cos mφ for m > 0, √2 sin |m|φ for m < 0, normalized to 1 on the sphere, without the sign (−1)^m.
+    ///     harmonics of degrees up to d: column l² + l ± m is P_l^m(cos θ), m ≥ 0, times √2 cos mφ with the upper sign, √2 sin mφ with the lower one, 1 for m = 0, normalized to 1 on the sphere, without the sign (−1)^m.
     /// source : Orbit, TabulatedOrbit or array_like of shape (3,)
     /// at : float, optional
     ///     The distance of the values, as of `Torque.from_facets`.
