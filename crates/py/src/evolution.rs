@@ -46,10 +46,10 @@ impl Scene {
     /// Parameters
     /// ----------
     /// span : (float, float), optional
-    ///     First and last time, with the epoch between them or at an end; by default the span of the scene.
+    ///     First and last time; by default the span of the scene. The way from the epoch to a span beside it belongs to the evolution.
     /// average : {"auto", "orbit", "spin"}, optional
-    ///     "orbit" averages torques of sources on ellipses over their orbits, too: exact in one term if they fall with the square of the distance. "spin" averages over the rotation alone and follows the
-    ///     source. "auto" averages over orbits if an orbit changes direction and excess by less than 0.01.
+    ///     "orbit" averages torques of sources on ellipses over their orbits, too: exact in one term if they fall with the square of the distance. Sources on hyperbolas and in tables are followed. "spin" averages over the rotation alone and
+    ///     follows all sources. "auto" averages over orbits if an orbit changes direction and excess by less than 0.01.
     /// tolerance : float, optional
     ///     Largest relative error of a step of the integration. The averages themselves leave out terms of the second order in the torque.
     ///
@@ -62,7 +62,7 @@ impl Scene {
     /// TheoryError
     ///     A torque that is not weak against the rotation or the wobble, a source that moves too fast, a state on the separatrix, a sphere, a body at rest. The message has the ratio and its limit.
     /// InputError
-    ///     No span, or one without the epoch; rotors; a polynomial with the directions to two sources in one term; a table that does not reach the span.
+    ///     No span; rotors; a polynomial with the directions or distances of two sources in one term; a table that does not reach the span.
     ///
     /// Examples
     /// --------

@@ -1,6 +1,7 @@
 //! `andoyer.Material`.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::cell::Cell;
+use std::sync::Arc;
 
 use andoyer_propagate::dissipation::{Loss, Material as Inner};
 use andoyer_propagate::{Error, dissipation::LossFunction};
@@ -52,30 +53,27 @@ use crate::values::immutable;
 #[pyclass(frozen, module = "andoyer")]
 pub(crate) struct Material {
     pub(crate) inner: Inner,
-    loss: Option<Arc<Called>>,
+    loss: Option<Arc<Py<PyAny>>>,
 }
 
 immutable!(Material);
 
-/// A function of Python, and the exception that it raised.
-struct Called {
-    function: Py<PyAny>,
-    failure: Mutex<Option<PyErr>>,
+thread_local! {
+    /// The exception of a loss function in the computation of this thread.
+    static FAILURE: Cell<Option<PyErr>> = const { Cell::new(None) };
 }
 
-impl Called {
-    /// The value of the function; NaN if it fails.
-    fn value(&self, frequency: f64) -> f64 {
-        let called = Python::attach(|py| {
-            let value = self.function.bind(py).call1((frequency,))?;
-            // A relaxation calls the function some 5e4 times, and `number` takes longer than many functions.
-            if value.is_exact_instance_of::<PyFloat>() { value.extract() } else { number("loss", &value) }
-        });
-        called.unwrap_or_else(|problem| {
-            *self.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(problem);
-            f64::NAN
-        })
-    }
+/// The value of a function of Python; NaN if it fails.
+fn value(function: &Py<PyAny>, frequency: f64) -> f64 {
+    let called = Python::attach(|py| {
+        let value = function.bind(py).call1((frequency,))?;
+        // A relaxation calls the function some 5e4 times, and `number` takes longer than many functions.
+        if value.is_exact_instance_of::<PyFloat>() { value.extract() } else { number("loss", &value) }
+    });
+    called.unwrap_or_else(|problem| {
+        FAILURE.set(Some(problem));
+        f64::NAN
+    })
 }
 
 impl Material {
@@ -85,9 +83,8 @@ impl Material {
         py: Python<'_>,
         compute: impl FnOnce() -> Result<T, Error> + Send,
     ) -> PyResult<T> {
-        let computed = detached(py, error::propagation, compute);
-        let failed = |called: &Arc<Called>| called.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
-        self.loss.as_ref().and_then(failed).map_or(computed, Err)
+        FAILURE.take();
+        detached(py, error::propagation, compute).map_err(|problem| FAILURE.take().unwrap_or(problem))
     }
 }
 
@@ -123,9 +120,9 @@ impl Material {
                         loss.get_type().name()?
                     )));
                 }
-                let called = Arc::new(Called { function: loss.clone().unbind(), failure: Mutex::new(None) });
+                let called = Arc::new(loss.clone().unbind());
                 let shared = Arc::clone(&called);
-                let function: LossFunction = Arc::new(move |frequency| shared.value(frequency));
+                let function: LossFunction = Arc::new(move |frequency| value(&shared, frequency));
                 (Loss::Function(function), Some(called))
             }
             _ => {
@@ -176,7 +173,7 @@ impl Material {
     /// The loss function χ(f), or None.
     #[getter]
     fn loss(&self, py: Python<'_>) -> Option<Py<PyAny>> {
-        self.loss.as_ref().map(|called| called.function.clone_ref(py))
+        self.loss.as_ref().map(|function| function.clone_ref(py))
     }
 
     /// True if compression has no loss.

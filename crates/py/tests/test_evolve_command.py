@@ -35,7 +35,7 @@ def test_bad_requests_are_one_line(scene, tmp_path, capsys):
     source = tmp_path / "scene.toml"
     source.write_text(scene.to_toml(), encoding="utf-8")
     assert main(["evolve", str(source), "-o", "years.txt"]) == 2
-    assert main(["evolve", str(source), "-o", str(tmp_path / "a.csv"), "--start", "1"]) == 2
+    assert main(["evolve", str(source), "-o", str(tmp_path / "a.csv"), "--start", "1e12"]) == 2
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 2
     assert "the name must end in .csv" in lines[0]

@@ -86,7 +86,7 @@ impl AveragedTorques {
                 DisturbingBody::Tabulated(table) => (SourcePath::Tabulated(table.clone()), table.gm()),
             };
             // G m/r³ is the attraction times (a/r)³, of a table gm/r³.
-            let source = MovingSource { path, power: 3.0, reference: strength.cbrt(), over_orbit: false };
+            let source = MovingSource::in_units(path, 3.0, strength.cbrt());
             let torque = SortedTorque::gravity(&moments)?;
             parts.push(TorquePart {
                 source: Some(sources.len()),

@@ -88,9 +88,10 @@ impl Evolution {
         Ok(EvolutionPlan { error_bound, truncation, second_order })
     }
 
-    /// The first and the last time.
+    /// The first and the last time of the span that it reaches.
     pub fn reached(&self) -> [f64; 2] {
-        self.paths.each_ref().map(|path| path.end.time)
+        let [first, last] = self.paths.each_ref().map(|path| path.end.time);
+        self.span.map(|time| time.clamp(first, last))
     }
 
     /// The span that was asked for.
@@ -182,16 +183,16 @@ impl Scene {
     /// ```
     ///
     /// # Errors
-    /// - Those of [`Scene::validate`]; [`Error::NoSpan`]; [`Error::Span`] for a span that does not contain the epoch; [`Error::Tolerance`].
+    /// - Those of [`Scene::validate`]; [`Error::NoSpan`]; [`Error::Span`] for (1, 0) and for times that are not finite; [`Error::Tolerance`].
     /// - [`Error::NotAveraged`] for a torque that is not weak against the rotation and the wobble, an orbit that is not slow, the separatrix, a sphere, a body at rest.
-    /// - [`Error::Torque`] for rotors, and for a polynomial with the directions to two sources in one term.
+    /// - [`Error::Torque`] for rotors, and for a polynomial with the directions or distances of two sources in one term.
     /// - [`Error::Table`], [`Error::TooManySteps`], [`Error::Stopped`].
     pub fn evolve(&self, options: EvolveOptions<'_>) -> Result<Evolution, Error> {
         let epoch = self.state().epoch;
         let Some((start, stop)) = options.span.or(self.asked_span()) else {
             return Err(Error::NoSpan { reason: String::new() });
         };
-        if !(start.is_finite() && stop.is_finite() && start <= epoch && epoch <= stop) {
+        if !(start.is_finite() && stop.is_finite() && start <= stop) {
             return Err(Error::Span { start, stop });
         }
         let tolerance = options.tolerance;
@@ -208,7 +209,8 @@ impl Scene {
         let (equations, longest) = (&problem.equations, problem.longest_step());
         let mut scaled = Scaled::new(equations, unit);
         let mut run = |end: f64| AveragedPath::run(&mut scaled, node, (end, longest), tolerance, options.stop);
-        let paths = [run(start)?, run(stop)?];
+        // The way to a span beside the epoch belongs to it.
+        let paths = [run(start.min(epoch))?, run(stop.max(epoch))?];
         Ok(Evolution { scene: self.clone(), problem, span: [start, stop], paths })
     }
 }

@@ -99,6 +99,11 @@ impl AveragedPath {
         tolerance: f64,
         halt: &AtomicBool,
     ) -> Result<Self, Error> {
+        // A step passes over no orbit that is not averaged.
+        let least = (stop - start.time).abs() / longest;
+        if least > MOST_STEPS as f64 {
+            return Err(too_many(least));
+        }
         let mut nodes = vec![start];
         let (sign, mut node) = (if stop < start.time { -1.0 } else { 1.0 }, start);
         let mut slope = scaled.slope(node.time, &node.state)?;
@@ -106,8 +111,7 @@ impl AveragedPath {
         while node.time != stop {
             going(halt).map_err(|_| Error::Stopped)?;
             if nodes.len() > MOST_STEPS {
-                let reason = "the averaged equations are integrated".to_owned();
-                return Err(Error::TooManySteps { steps: f64::INFINITY, bound: MOST_STEPS, reason });
+                return Err(too_many(f64::INFINITY));
             }
             let left = (stop - node.time).abs();
             // A last step shorter than the rounding of time would not end.
@@ -122,7 +126,7 @@ impl AveragedPath {
             if error.is_nan() || error > 1.0 {
                 h = length * factor.min(0.9);
                 if node.time + sign * h == node.time || !h.is_finite() {
-                    return Err(Error::TooManySteps { steps: f64::INFINITY, bound: MOST_STEPS, reason: String::new() });
+                    return Err(too_many(f64::INFINITY));
                 }
                 continue;
             }
@@ -147,6 +151,10 @@ impl AveragedPath {
         let node = self.nodes[self.nodes.partition_point(passed).max(1) - 1];
         if node.time == time { Ok(node.state) } else { scaled.after(&node, time - node.time) }
     }
+}
+
+fn too_many(steps: f64) -> Error {
+    Error::TooManySteps { steps, bound: MOST_STEPS, reason: String::new() }
 }
 
 /// The last state before an event within a step, by bisection to 1e-12 of the step.

@@ -63,25 +63,27 @@ impl SortedTorque {
         Ok(Self { source: Some(0), components: [component(0)?, component(1)?, component(2)?] })
     }
 
-    /// The parts of a polynomial torque, one for each source. `sort` takes components about the axes of the scene to sorted ones.
+    /// The parts of a polynomial torque, one for each source: of a term the one whose direction it has, or whose distance multiplies the torque. `sort` takes components about the
+    /// axes of the scene to sorted ones.
     ///
     /// # Errors
-    /// - [`Error::Torque`] for a term with the directions to two sources, which no average over one circle has.
+    /// - [`Error::Torque`] for a term with two such sources, which no average over one circle has.
     pub(super) fn of_polynomial(torque: &PolynomialTorque, sort: &Matrix3<f64>) -> Result<Vec<Self>, Error> {
         let text = torque.turn() * sort.transpose();
+        // (r₀/r)^p multiplies every term, those without a direction too.
+        let weighs: Vec<bool> = torque.sources().iter().map(|source| source.distance_power().0 != 0.0).collect();
         let mut parts: BTreeMap<Option<usize>, [Form; 3]> = BTreeMap::new();
         for (axis, terms) in torque.terms().iter().enumerate() {
             for (coefficient, exponents) in terms {
                 let (directions, rates) = exponents.split_at(exponents.len() - 3);
                 let used: Vec<usize> = (0..directions.len() / 3)
-                    .filter(|source| directions[3 * source..3 * source + 3].iter().any(|power| *power > 0))
+                    .filter(|&source| weighs[source] || directions[3 * source..][..3].iter().any(|power| *power > 0))
                     .collect();
                 let (source, powers) = match used[..] {
                     [] => (None, [0; 3]),
                     [source] => (Some(source), [0, 1, 2].map(|k| directions[3 * source + k])),
                     _ => {
-                        let bound =
-                            "averaged with one direction in each term; average the product yourself, or integrate";
+                        let bound = "averaged with the direction or the distance of one source in each term; average the product yourself, or integrate";
                         return Err(refused("texts", &torque.texts()[axis], bound));
                     }
                 };

@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use crate::error::Error;
 use crate::input::torque::SourcePath;
 use crate::orbit::elements::Orbit;
+use crate::orbit::table::TabulatedOrbit;
 
 /// Points of the true anomaly for a fall that is no integer power of 2 or more.
 const MANY: usize = 128;
@@ -30,6 +31,8 @@ pub(super) struct MovingSource {
     pub(super) reference: f64,
     /// Whether the torque is averaged over the orbit.
     pub(super) over_orbit: bool,
+    /// The largest rate of its direction [rad/time]: at the pericentre, or between two rows of a table.
+    pub(super) fastest: f64,
 }
 
 impl MovingSource {
@@ -39,7 +42,17 @@ impl MovingSource {
             SourcePath::Orbit(orbit) => orbit.asked_semi_major_axis().unwrap_or(1.0),
             _ => 1.0,
         };
-        Self { path: path.clone(), power, reference: reference / unit, over_orbit: false }
+        Self::in_units(path.clone(), power, reference / unit)
+    }
+
+    /// With the reference distance in the unit of length of the path.
+    pub(super) fn in_units(path: SourcePath, power: f64, reference: f64) -> Self {
+        let fastest = match &path {
+            SourcePath::Orbit(orbit) => fastest_of_orbit(orbit),
+            SourcePath::Tabulated(table) => fastest_of_table(table),
+            SourcePath::Direction(_) => 0.0,
+        };
+        Self { path, power, reference, over_orbit: false, fastest }
     }
 
     /// The orbit, if it is an ellipse.
@@ -101,4 +114,20 @@ impl MovingSource {
             out.push(View { direction: to_pericentre * cosine + ahead * sine, weight, zonal: false });
         }
     }
+}
+
+/// ḟ = n √|1 − e²|/(1 − e)² at the pericentre, or a secular rate.
+fn fastest_of_orbit(orbit: &Orbit) -> f64 {
+    let e = orbit.eccentricity();
+    let at_pericentre = orbit.mean_motion() * ((1.0 - e) * (1.0 + e)).abs().sqrt() / ((1.0 - e) * (1.0 - e));
+    at_pericentre.max(orbit.fastest())
+}
+
+/// The largest angle between neighbouring rows over the time between them.
+fn fastest_of_table(table: &TabulatedOrbit) -> f64 {
+    let rows = table.times().windows(2).zip(table.positions().windows(2));
+    let rate = |(times, places): (&[f64], &[[f64; 3]])| {
+        Vector3::from(places[0]).angle(&Vector3::from(places[1])) / (times[1] - times[0])
+    };
+    rows.map(rate).fold(0.0, f64::max)
 }

@@ -5,7 +5,7 @@ use crate::error::Error;
 
 /// The largest ratio: at 0.1 first-order terms change the state by a tenth.
 pub(super) const LIMIT: f64 = 0.1;
-/// The largest ratio of the mean motion of a source to the rates of the rotation: resonances with the orbit are not in the averages.
+/// The largest ratio of the rate of a source's direction to the rates of the rotation: resonances with the orbit are not in the averages.
 const SLOWEST: f64 = 0.25;
 
 /// A wobble is slow by itself if the ratios differ by more than this factor, twice the ratio of the rates.
@@ -19,7 +19,7 @@ pub enum EndReason {
     Span,
     /// The separatrix between the modes: the mode after it depends on lost phases.
     Separatrix,
-    /// A rotation that is no longer fast against the torque.
+    /// A rotation, or a wobble, that is no longer fast against the torque or the motion of a source.
     SlowRotation,
     /// A wobble that is no longer fast against the torque.
     NearSphere,
@@ -43,7 +43,7 @@ pub(super) struct Weakness {
     pub(super) rotation: f64,
     /// Twice the torque over M times the rate of a small wobble.
     pub(super) wobble: f64,
-    /// Mean motion over the slower of the two rates.
+    /// Largest rate of a source's direction over the slower of the two rates.
     orbit: f64,
 }
 
@@ -59,8 +59,7 @@ impl Weakness {
         // Rates of steady rotation over M: 1/I_p and √(a b)/I_p.
         let [rotation, wobble] = [1.0, (alpha[family.across()] * alpha.y).sqrt()].map(|rate| rate / own);
         let strength = equations.strength(time, momentum, scratch)? / momentum / momentum;
-        let motions = equations.sources.iter().filter_map(|source| source.ellipse()).map(|orbit| orbit.mean_motion());
-        let fastest = motions.fold(0.0, f64::max);
+        let fastest = equations.sources.iter().map(|source| source.fastest).fold(0.0, f64::max);
         Ok(Self {
             rotation: strength / rotation,
             wobble: if strength > 0.0 { 2.0 * strength / wobble } else { 0.0 },
@@ -70,7 +69,7 @@ impl Weakness {
 
     /// The reason for an end, if a ratio is too large.
     pub(super) fn end(self) -> Option<EndReason> {
-        if self.rotation > LIMIT {
+        if self.rotation > LIMIT || self.orbit > SLOWEST {
             Some(EndReason::SlowRotation)
         } else if self.wobble > LIMIT {
             // A wobble as fast as the rotation is slow only if both are.
@@ -94,7 +93,11 @@ impl Weakness {
                 self.wobble,
                 LIMIT,
             ),
-            ("the mean motion of a source over the slower rate of the rotation and the wobble", self.orbit, SLOWEST),
+            (
+                "the largest rate of the direction to a source over the slower rate of the rotation and the wobble",
+                self.orbit,
+                SLOWEST,
+            ),
         ];
         match checks.into_iter().find(|(_, size, bound)| size.is_nan() || size > bound) {
             Some((reason, size, bound)) => Err(Error::NotAveraged { reason, size, bound }),

@@ -4,6 +4,7 @@ use andoyer_propagate::disturbers::DisturbingBody;
 use andoyer_propagate::ensemble::Outcome;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::{PyList, PyTuple};
 
 use crate::array::{number, numbers_of};
 use crate::error;
@@ -60,7 +61,12 @@ fn orbits_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Vec<DisturbingBody>>> {
         if member.is_none() {
             return Ok(Vec::new());
         }
-        disturbing_bodies(&member).map_err(|_| not_an_orbit(&format!("orbits[{index}]"), &member, "None"))
+        let several = member.is_instance_of::<PyList>() || member.is_instance_of::<PyTuple>();
+        let named = |problem| match several {
+            true => problem,
+            false => not_an_orbit(&format!("orbits[{index}]"), &member, "None"),
+        };
+        disturbing_bodies(&member).map_err(named)
     };
     members.enumerate().map(bodies).collect()
 }
