@@ -10,7 +10,7 @@ use pyo3::types::{PyDict, PyType};
 type Array = Py<PyArrayDyn<f64>>;
 type Parts = (Array, Array, Array, bool, Option<Py<PyAny>>, Py<PyDict>);
 
-/// Attitudes and angular velocities of a motion or an ensemble at given times, from `Motion.at` or `Ensemble.at`.
+/// Attitudes and angular velocities of a motion or an ensemble at given times, from `Motion.at` or `Ensemble.at`; those of any other origin come from `Samples.from_arrays`.
 ///
 /// The samples own their arrays. For an ensemble the arrays have a leading axis of members, and `len` is the number of members. For a motion `len` is
 /// the number of times. For a scalar time there is no axis of times, and the samples of a motion have no `len`.
@@ -69,6 +69,46 @@ impl Samples {
 
 #[pymethods]
 impl Samples {
+    /// Samples from arrays of any origin: a star tracker, another propagator. They go where the samples of a motion go: tables, CK, AEM, pictures, `fit.attitudes`.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : array_like, shape (n,), or astropy.time.Time
+    ///     Increasing times in any unit; files of SPICE and of the CCSDS take seconds.
+    /// attitudes : array_like, shape (n, 4), or scipy.spatial.transform.Rotation
+    ///     Unit quaternions [x, y, z, w] that rotate body components into inertial ones.
+    /// angular_velocity : array_like, shape (n, 3), optional
+    ///     Body components, rad per unit of time. Without it, and where a row is NaN, it is unknown: NaN.
+    /// epoch : astropy.time.Time, optional
+    ///     The date of time 0, if the times are numbers of seconds: the samples have dates then.
+    /// scalar_first : bool, optional
+    ///     If True, plain quaternions are [w, x, y, z].
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     No time, times that do not increase; another number of rows; a number that is not finite; a norm that differs from 1 by more than 1e-6; an epoch beside dates.
+    /// TypeError
+    ///     A quantity with a wrong unit; quaternions of a class whose order is not known.
+    ///
+    /// Examples
+    /// --------
+    /// >>> samples = Samples.from_arrays([0.0, 1.0], [[0, 0, 0, 1], [0, 0, 0.6, 0.8]])
+    /// >>> samples
+    /// <Samples at 2 times>
+    #[staticmethod]
+    #[pyo3(signature = (times, attitudes, angular_velocity=None, *, epoch=None, scalar_first=false))]
+    fn from_arrays<'py>(
+        times: &Bound<'py, PyAny>,
+        attitudes: &Bound<'py, PyAny>,
+        angular_velocity: Option<&Bound<'py, PyAny>>,
+        epoch: Option<&Bound<'py, PyAny>>,
+        scalar_first: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let module = times.py().import("andoyer.interop._samples")?;
+        module.call_method1("from_arrays", (times, attitudes, angular_velocity, epoch, scalar_first))
+    }
+
     /// The times, float64, shape (n,), or (m, n) for an ensemble whose members have their own times. Times of astropy are returned as given.
     #[getter]
     fn times(&self, py: Python<'_>) -> Py<PyAny> {

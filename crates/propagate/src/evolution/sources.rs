@@ -129,5 +129,5 @@ fn fastest_of_table(table: &TabulatedOrbit) -> f64 {
     let rate = |(times, places): (&[f64], &[[f64; 3]])| {
         Vector3::from(places[0]).angle(&Vector3::from(places[1])) / (times[1] - times[0])
     };
-    rows.map(rate).fold(0.0, f64::max)
+    rows.filter(|(times, _)| times[0] < times[1]).map(rate).fold(0.0, f64::max)
 }

@@ -1,4 +1,4 @@
-//! The series of a tabulated body: of the polynomial through the nearest positions.
+//! The series of a tabulated body: of the polynomial through the nearest rows.
 //!
 //! The polynomial belongs to an interval of the table, so a step ends at each of its times.
 
@@ -8,7 +8,7 @@ use andoyer_double::two_sum;
 
 use super::series::{GRAVITY, ROWS, Scalars, Series, power, product};
 use crate::numerics::scaling::scaled;
-use crate::orbit::table::{NODES, TabulatedOrbit};
+use crate::orbit::table::{TabulatedOrbit, taylor};
 
 /// A table in the unit of the integration.
 #[derive(Clone, Debug)]
@@ -16,8 +16,9 @@ pub(super) struct Table {
     orbit: Arc<TabulatedOrbit>,
     /// Times from the epoch, in double-double.
     knots: Arc<Vec<(f64, f64)>>,
-    /// A length by which positions are divided.
+    /// A length by which positions are divided, and the unit of time, 2^−exponent.
     length: f64,
+    exponent: i32,
     /// The series is `strength` times this power of the distance over `length` times the position over `length`: √(3 gm/length³) and −5/2 for the gravity
     /// gradient.
     strength: f64,
@@ -43,7 +44,7 @@ impl Table {
             (scaled(high, exponent), scaled(low, exponent))
         });
         let (knots, length) = (Arc::new(knots.collect()), Self::length(orbit));
-        Self { orbit: orbit.clone(), knots, length, strength, power, earlier: None }
+        Self { orbit: orbit.clone(), knots, length, exponent, strength, power, earlier: None }
     }
 
     pub(super) fn neighbouring(&self, earlier: bool) -> Self {
@@ -89,37 +90,20 @@ impl Table {
     ) -> ([Scalars; 3], Scalars, usize) {
         let interval = self.interval(time);
         // A step backwards from a time of the table lies in the interval before it.
-        let interval = if backward && self.knots[interval] == time { interval.saturating_sub(1) } else { interval };
-        let (start, nodes) = match self.earlier {
-            Some(earlier) => self.orbit.neighbour(interval, earlier),
-            None => (self.orbit.first_node(interval, NODES), NODES),
-        };
-        let mut at = [0.0; NODES];
-        let mut values = [[0.0; 3]; NODES];
-        for i in 0..nodes {
-            let knot = self.knots[start + i];
-            at[i] = (knot.0 - time.0) + (knot.1 - time.1);
-            values[i] = self.orbit.positions()[start + i].map(|value| value / self.length);
-        }
-        for level in 1..nodes {
-            for i in (level..nodes).rev() {
-                let share = 1.0 / (at[i] - at[i - level]);
-                let before = values[i - 1];
-                for (value, before) in values[i].iter_mut().zip(before) {
-                    *value = (*value - before) * share;
-                }
-            }
-        }
+        let back = backward && self.knots[interval] == time;
+        let interval = if back { self.knots.partition_point(|knot| *knot < time).saturating_sub(1) } else { interval };
+        let rows = self.orbit.around(interval, self.earlier);
+        let coefficients = taylor(
+            &rows,
+            |row| (self.knots[row].0 - time.0) + (self.knots[row].1 - time.1),
+            |row| self.orbit.positions()[row].map(|value| value / self.length),
+            |row| Some(self.orbit.velocities()?[row].map(|value| scaled(value, -self.exponent) / self.length)),
+        );
         let mut position: [Scalars; 3] = [[0.0; ROWS]; 3];
-        for (axis, p) in position.iter_mut().enumerate() {
-            for i in (0..nodes).rev() {
-                // p ← p · (t − at) + value.
-                for k in (1..nodes).rev() {
-                    p[k] = p[k - 1] - at[i] * p[k];
-                }
-                p[0] = values[i][axis] - at[i] * p[0];
-            }
+        for (p, coefficients) in position.iter_mut().zip(&coefficients) {
+            p[..coefficients.len()].copy_from_slice(coefficients);
         }
+        let nodes = if self.orbit.velocities().is_some() { 2 * rows.len() } else { rows.len() };
         let (mut square, mut factor): (Scalars, Scalars) = ([0.0; ROWS], [0.0; ROWS]);
         for k in 0..order {
             square[k] = position.iter().map(|p| product(p, p, k)).sum();

@@ -1,10 +1,13 @@
 //! The position of a disturbing body as a table of times and vectors.
 //!
-//! Between two times the position is the polynomial of degree seven through the eight nearest times. The error bound of a motion contains the interpolation
-//! error, which is estimated with the polynomials through eight times that begin one earlier and one later. Where the eighth derivative is constant, they differ
-//! from the polynomial by 2 to 2.7 times its error, in the direction of the error. Where the polynomials do not converge, because a pericentre lies between few
-//! times, all of them pass it far outside and agree on a torque that is too weak. A table is therefore
+//! Between two times the position is a polynomial of degree seven: through the eight nearest positions, or, where the table has velocities, through the four nearest positions and
+//! their velocities (Hermite). Two equal times of a table with velocities are the edge of two segments, and no polynomial passes it. The error bound of a motion contains the
+//! interpolation error, which is estimated with the polynomials through rows that begin one earlier and one later. Where the eighth derivative is constant, they differ
+//! from the polynomial by 2 to 2.7 times its error (with velocities by 1.8 times, in the mean over an interval), in the direction of the error. Where the polynomials do not converge,
+//! because a pericentre lies between few times, all of them pass it far outside and agree on a torque that is too weak. A table is therefore
 //! refused if the departure in the middle of an interval is a tenth of the distance.
+
+use std::ops::Range;
 
 use nalgebra::Vector3;
 
@@ -12,7 +15,7 @@ use super::elements::{POSITIVE, check};
 use crate::error::Error;
 use crate::numerics::scaling::scaled;
 
-/// Number of times through whose positions a polynomial passes.
+/// Number of conditions of a polynomial: positions, or positions and velocities.
 pub(crate) const NODES: usize = 8;
 
 /// Positions of the disturbing body relative to the rotating body, in inertial components. Only the integrated method uses them.
@@ -29,6 +32,9 @@ pub(crate) const NODES: usize = 8;
 pub struct TabulatedOrbit {
     times: Vec<f64>,
     positions: Vec<[f64; 3]>,
+    velocities: Option<Vec<[f64; 3]>>,
+    /// The first row of each segment.
+    segments: Vec<usize>,
     gm: f64,
 }
 
@@ -41,31 +47,60 @@ impl TabulatedOrbit {
     /// - [`Error::Table`] for a time that is not after the one before it, a number that is not finite, or a position at the origin.
     /// - [`Error::Orbit`] for a gm of 0, −1 or NaN.
     pub fn new(times: Vec<f64>, positions: Vec<[f64; 3]>, gm: f64) -> Result<Self, Error> {
+        Self { times, positions, velocities: None, segments: vec![0], gm }.checked()
+    }
+
+    /// A table with a velocity for each time. A segment has at least four times; at the edge of two segments its time stands twice, as at a change of the orbit.
+    ///
+    /// # Errors
+    /// Those of [`TabulatedOrbit::new`], and
+    /// - [`Error::Length`] for another number of velocities.
+    /// - [`Error::TooFew`] for a segment of fewer than four times.
+    pub fn with_velocities(
+        times: Vec<f64>,
+        positions: Vec<[f64; 3]>,
+        velocities: Vec<[f64; 3]>,
+        gm: f64,
+    ) -> Result<Self, Error> {
+        if velocities.len() != times.len() {
+            return Err(Error::Length { argument: "velocities", found: velocities.len(), expected: times.len() });
+        }
+        let edges = (1..times.len()).filter(|&row| times[row] == times[row - 1]);
+        let segments = std::iter::once(0).chain(edges).collect();
+        Self { times, positions, velocities: Some(velocities), segments, gm }.checked()
+    }
+
+    fn checked(self) -> Result<Self, Error> {
+        let Self { times, positions, velocities, segments, gm } = &self;
         if positions.len() != times.len() {
             return Err(Error::Length { argument: "positions", found: positions.len(), expected: times.len() });
         }
         let refused = |argument, index, value, bound| Err(Error::Table { argument, index, value, bound });
-        if times.len() < NODES {
-            return Err(Error::TooFew { argument: "times", found: times.len(), least: NODES });
-        }
         for (index, &time) in times.iter().enumerate() {
             if !time.is_finite() {
                 return refused("times", index, time, "finite");
             }
-            if index > 0 && time <= times[index - 1] {
-                return refused("times", index, time, "greater than the one before it");
+            if index > 0 && time <= times[index - 1] && !segments.contains(&index) {
+                let bound = if velocities.is_some() { "greater than the one before it, or equal to it" } else { "greater than the one before it" };
+                return refused("times", index, time, bound);
             }
         }
-        for (index, position) in positions.iter().enumerate() {
-            if let Some(&value) = position.iter().find(|value| !value.is_finite()) {
-                return refused("positions", index, value, "finite");
-            }
-            if Vector3::from(*position).norm() == 0.0 {
-                return refused("positions", index, 0.0, "away from the origin");
+        let ends = segments[1..].iter().copied().chain([times.len()]);
+        if let Some(found) = segments.iter().zip(ends).map(|(first, end)| end - first).find(|rows| *rows < self.rows()) {
+            return Err(Error::TooFew { argument: "times", found, least: self.rows() });
+        }
+        for (argument, vectors) in [("positions", Some(positions)), ("velocities", velocities.as_ref())] {
+            for (index, vector) in vectors.into_iter().flatten().enumerate() {
+                if let Some(&value) = vector.iter().find(|value| !value.is_finite()) {
+                    return refused(argument, index, value, "finite");
+                }
             }
         }
-        check("gm", gm, gm > 0.0 && gm.is_finite(), POSITIVE)?;
-        Ok(Self { times, positions, gm })
+        if let Some(index) = positions.iter().position(|position| *position == [0.0; 3]) {
+            return refused("positions", index, 0.0, "away from the origin");
+        }
+        check("gm", *gm, *gm > 0.0 && gm.is_finite(), POSITIVE)?;
+        Ok(self)
     }
 
     /// The times.
@@ -76,6 +111,11 @@ impl TabulatedOrbit {
     /// The positions, one for each time.
     pub fn positions(&self) -> &[[f64; 3]] {
         &self.positions
+    }
+
+    /// The velocities, if the table has them, one for each time.
+    pub fn velocities(&self) -> Option<&[[f64; 3]]> {
+        self.velocities.as_deref()
     }
 
     /// G × the mass of the disturbing body.
@@ -92,56 +132,40 @@ impl TabulatedOrbit {
         if !(first <= time && time <= last) {
             return Err(Error::Table { argument: "time", index: 0, value: time, bound: "within the table" });
         }
-        Ok(self.through(self.first_node(self.interval(time), NODES), NODES, time))
+        Ok(self.taylor(&self.around(self.interval(time), None), time).map(|coefficients| coefficients[0]))
     }
 
-    /// Position, velocity and acceleration at a time: the derivatives of Neville's scheme.
+    /// Position, velocity and acceleration at a time, of the polynomial.
     pub(crate) fn motion(&self, time: f64) -> Result<[[f64; 3]; 3], Error> {
         self.position(time)?;
-        let start = self.first_node(self.interval(time), NODES);
-        let mut table = [[[0.0; 3]; 3]; NODES];
-        for (row, position) in table.iter_mut().zip(&self.positions[start..]) {
-            row[0] = *position;
-        }
-        for level in 1..NODES {
-            for i in 0..NODES - level {
-                let (left, right) = (self.times[start + i] - time, self.times[start + i + level] - time);
-                let (one, other) = (table[i], table[i + 1]);
-                for axis in 0..3 {
-                    let [p, v, a] = [0, 1, 2].map(|order| right * one[order][axis] - left * other[order][axis]);
-                    let [slope, bend] = [0, 1].map(|order| other[order][axis] - one[order][axis]);
-                    for (order, value) in [p, v + slope, a + 2.0 * bend].into_iter().enumerate() {
-                        table[i][order][axis] = value / (right - left);
-                    }
-                }
-            }
-        }
-        Ok(table[0])
+        let coefficients = self.taylor(&self.around(self.interval(time), None), time);
+        Ok([(0, 1.0), (1, 1.0), (2, 2.0)].map(|(order, factor)| coefficients.map(|of_axis| factor * of_axis[order])))
     }
 
-    /// The polynomial through `count` positions, at most eight, by Neville's scheme.
-    fn through(&self, start: usize, count: usize, time: f64) -> [f64; 3] {
-        let mut table = [[0.0; 3]; NODES];
-        table[..count].copy_from_slice(&self.positions[start..start + count]);
-        for level in 1..count {
-            for i in 0..count - level {
-                let (left, right) = (self.times[start + i] - time, self.times[start + i + level] - time);
-                let next = table[i + 1];
-                for (value, next) in table[i].iter_mut().zip(next) {
-                    *value = (right * *value - left * next) / (right - left);
-                }
-            }
-        }
-        table[0]
+    /// Taylor's coefficients about a time of the polynomial through rows.
+    fn taylor(&self, rows: &Range<usize>, time: f64) -> [[f64; NODES]; 3] {
+        taylor(rows, |row| self.times[row] - time, |row| self.positions[row], |row| Some(self.velocities.as_ref()?[row]))
     }
 
-    /// A neighbour of the polynomial of an interval: the index of its first time, one earlier or later, and the number of its times. At an end of the table both
-    /// neighbours are the same. A table of eight times has neighbours through seven.
-    pub(crate) fn neighbour(&self, interval: usize, earlier: bool) -> (usize, usize) {
-        let (own, count) = (self.first_node(interval, NODES), NODES.min(self.times.len() - 1));
-        let [before, after] = [own.saturating_sub(1), (own + 1).min(self.times.len() - count)];
+    /// The number of rows of a polynomial.
+    fn rows(&self) -> usize {
+        if self.velocities.is_some() { NODES / 2 } else { NODES }
+    }
+
+    /// The rows of the polynomial of an interval, or of the neighbour that begins one row earlier or later. At an end of a segment both neighbours are the same. A segment with no row
+    /// more than the polynomial has neighbours through one row less.
+    pub(crate) fn around(&self, interval: usize, earlier: Option<bool>) -> Range<usize> {
+        let segment = self.segments.partition_point(|first| *first <= interval);
+        let first = self.segments[segment - 1];
+        let end = self.segments.get(segment).copied().unwrap_or(self.times.len());
+        let rows = self.rows();
+        let own = (interval + 1).saturating_sub(rows / 2).max(first).min(end - rows);
+        let Some(earlier) = earlier else { return own..own + rows };
+        let count = rows.min(end - first - 1);
+        let [before, after] = [own.saturating_sub(1).max(first), (own + 1).min(end - count)];
         let (asked, other) = if earlier { (before, after) } else { (after, before) };
-        (if (asked, count) == (own, NODES) { other } else { asked }, count)
+        let start = if (asked, count) == (own, rows) { other } else { asked };
+        start..start + count
     }
 
     /// The interval between two times in which a neighbouring polynomial departs most from its own, and that departure in the middle over the least distance of the
@@ -151,14 +175,15 @@ impl TabulatedOrbit {
             let middle = 0.5 * self.times[interval] + 0.5 * self.times[interval + 1];
             // Squares of lengths are doubles in this unit.
             let unit = Vector3::from(self.positions[interval]).amax();
-            let at = |(start, count)| Vector3::from(self.through(start, count, middle)) / unit;
-            let own = at((self.first_node(interval, NODES), NODES));
-            let [one, other] = [true, false].map(|earlier| (at(self.neighbour(interval, earlier)) - own).norm());
+            let at = |earlier| Vector3::from(self.taylor(&self.around(interval, earlier), middle).map(|axis| axis[0])) / unit;
+            let own = at(None);
+            let [one, other] = [true, false].map(|earlier| (at(Some(earlier)) - own).norm());
             let nearest = |end: usize| distance_of_chord(own, Vector3::from(self.positions[end]) / unit);
             one.max(other) / nearest(interval).min(nearest(interval + 1))
         };
         let last = self.times.partition_point(|knot| *knot < stop).clamp(1, self.times.len() - 1) - 1;
         let intervals = self.interval(start)..=last.max(self.interval(start));
+        let intervals = intervals.filter(|&interval| self.times[interval] < self.times[interval + 1]);
         let intervals = intervals.map(|interval| (interval, departure(interval)));
         intervals.max_by(|one, other| one.1.total_cmp(&other.1)).unwrap_or((0, 0.0))
     }
@@ -188,11 +213,48 @@ impl TabulatedOrbit {
     pub(crate) fn interval(&self, time: f64) -> usize {
         self.times.partition_point(|knot| *knot <= time).clamp(1, self.times.len() - 1) - 1
     }
+}
 
-    /// The index of the first of `count` times around an interval.
-    pub(crate) fn first_node(&self, interval: usize, count: usize) -> usize {
-        (interval + 1).saturating_sub(count / 2).min(self.times.len() - count)
+/// Taylor's coefficients about the present of the polynomial through rows, by Newton's divided differences. A row is at a time from the present; one with a velocity counts twice.
+pub(crate) fn taylor(
+    rows: &Range<usize>,
+    time: impl Fn(usize) -> f64,
+    position: impl Fn(usize) -> [f64; 3],
+    velocity: impl Fn(usize) -> Option<[f64; 3]>,
+) -> [[f64; NODES]; 3] {
+    let (mut at, mut values) = ([0.0; NODES], [[0.0; 3]; NODES]);
+    let slopes = velocity(rows.start).is_some();
+    let (each, nodes) = if slopes { (2, 2 * rows.len()) } else { (1, rows.len()) };
+    for i in 0..nodes {
+        (at[i], values[i]) = (time(rows.start + i / each), position(rows.start + i / each));
     }
+    for level in 1..nodes {
+        for i in (level..nodes).rev() {
+            if level == 1
+                && i % each == 1
+                && let Some(slope) = velocity(rows.start + i / each)
+            {
+                values[i] = slope;
+                continue;
+            }
+            let share = 1.0 / (at[i] - at[i - level]);
+            let before = values[i - 1];
+            for (value, before) in values[i].iter_mut().zip(before) {
+                *value = (*value - before) * share;
+            }
+        }
+    }
+    std::array::from_fn(|axis| {
+        let mut p = [0.0; NODES];
+        for i in (0..nodes).rev() {
+            // p ← p · (t − at) + value.
+            for k in (1..nodes).rev() {
+                p[k] = p[k - 1] - at[i] * p[k];
+            }
+            p[0] = values[i][axis] - at[i] * p[0];
+        }
+        p
+    })
 }
 
 /// The least distance of a chord from the origin.

@@ -187,7 +187,7 @@ impl OrbitTables {
 
 impl OrbitTable {
     fn body(self) -> Result<DisturbingBody, Refusal> {
-        if self.times.is_none() && self.positions.is_none() && self.gm.is_none() {
+        if self.times.is_none() && self.positions.is_none() && self.velocities.is_none() && self.gm.is_none() {
             return self.orbit().map(DisturbingBody::from);
         }
         if let Some(key) = self.first_element() {
@@ -198,7 +198,11 @@ impl OrbitTable {
         let times = self.times.ok_or_else(|| missing("times"))?;
         let positions = self.positions.ok_or_else(|| missing("positions"))?;
         let gm = self.gm.ok_or_else(|| missing("gm"))?;
-        Ok(TabulatedOrbit::new(times, positions, gm)?.into())
+        let table = match self.velocities {
+            Some(velocities) => TabulatedOrbit::with_velocities(times, positions, velocities, gm),
+            None => TabulatedOrbit::new(times, positions, gm),
+        };
+        Ok(table?.into())
     }
 
     /// The key of the first element that is given.

@@ -158,6 +158,8 @@ pub(super) struct OrbitTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) positions: Option<Vec<[f64; 3]>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) velocities: Option<Vec<[f64; 3]>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) gm: Option<f64>,
 }
 

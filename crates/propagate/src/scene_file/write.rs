@@ -103,6 +103,7 @@ impl OrbitTable {
         Self {
             times: Some(table.times().to_vec()),
             positions: Some(table.positions().to_vec()),
+            velocities: table.velocities().map(<[_]>::to_vec),
             gm: Some(table.gm()),
             ..Self::default()
         }

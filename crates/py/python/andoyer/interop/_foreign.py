@@ -42,6 +42,7 @@ UNITS = {
     "positions": "m",
     "position": "m",
     "velocity": "m / s",
+    "velocities": "m / s",
     "moments": "kg m2",
     "tensor": "kg m2",
     "torque": "kg m2 / s2",

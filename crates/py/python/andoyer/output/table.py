@@ -30,6 +30,8 @@ LINES_AT_ONCE = 10_000
 COMMENT = "# "
 """Begins the lines of a CSV file that hold no numbers."""
 
+RATES = COLUMNS.split(",")[5:]
+
 JULIAN = ["jd1", "jd2"]
 """Columns of a calendar time: its Julian date in two doubles, as astropy has it."""
 
@@ -212,7 +214,8 @@ def against(orbital: Orbital | None, table: Array) -> dict[str, Array]:
 def read_table(path: str | os.PathLike[str]) -> Table:
     """Read the samples and the other contents of a CSV, NPZ or Parquet file. The ending of the name determines the format.
 
-    Columns are found by their names. They may be in any order, with other columns between them.
+    Columns are found by their names. They may be in any order, with other columns between them. Without the columns of the rates, and where those of a row are NaN, the angular velocity is
+    unknown: NaN.
 
     Parameters
     ----------
@@ -253,12 +256,16 @@ def _read(path: Path) -> Table:
     if path.suffix.lower() not in readers:
         raise ValueError(f"the name must end in {', '.join(ENDINGS)}")
     columns, texts = readers[path.suffix.lower()](path)
+    if not any(name in columns for name in RATES):
+        columns |= dict.fromkeys(RATES, np.full_like(columns.get("t", np.zeros(0)), np.nan))
     missing = [name for name in COLUMNS.split(",") if name not in columns]
     if missing:
-        raise ValueError(f"must have the columns {COLUMNS}: {', '.join(missing)} missing")
+        raise ValueError(f"must have the columns {COLUMNS}, or those of the rates not at all: {', '.join(missing)} missing")
     table = np.column_stack([columns[name] for name in COLUMNS.split(",")])
-    if not np.isfinite(table).all():
-        raise ValueError(f"must hold finite numbers: row {np.flatnonzero(~np.isfinite(table).all(axis=1))[0] + 1} does not")
+    wrong = ~np.isfinite(table)
+    wrong[:, 5:] &= ~np.isnan(table[:, 5:]).all(axis=1, keepdims=True)
+    if wrong.any():
+        raise ValueError(f"must hold finite numbers, or NaN for all rates of a row: row {np.flatnonzero(wrong.any(axis=1))[0] + 1} does not")
     times = None
     if texts.get("time_scale"):
         time = extra("astropy.time", f"reading calendar times of {path}")
@@ -304,6 +311,7 @@ def _read_npz(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
     try:
         with np.load(path, allow_pickle=False) as file:
             arrays = {key: file[key] for key in file.files}
+            arrays.setdefault("angular_velocity", np.full((len(arrays["times"]), 3), np.nan))
             numbers = [arrays[key].astype(np.float64).reshape(len(arrays["times"]), -1) for key in ("times", "attitude", "angular_velocity")]
     except (KeyError, ValueError, TypeError, EOFError, AttributeError, zipfile.BadZipFile) as error:
         raise ValueError(f"must be an NPZ with the arrays times, attitude, angular_velocity: {error}") from error
