@@ -13,10 +13,7 @@ pub use andoyer_series::error::{Kind, Value};
 pub(crate) use duration::duration_in_words;
 #[cfg(all(test, feature = "torques"))]
 pub(crate) use sentences::STEP_BYTES;
-use sentences::{
-    advice, and_others, because, did_you_mean, distance, elsewhere, evolve, finite, four_digits, instead_of,
-    rounded_up, setting, slow, too_many, turn, unaveraged,
-};
+use sentences::{advice, and_others, because, did_you_mean, distance, elsewhere, evolve, finite, four_digits, indexed, instead_of, rounded_up, setting, slow, too_many, turn, unaveraged};
 pub use torque_measure::TorqueMeasure;
 
 const POSITIVE: &str = "positive and finite";
@@ -96,6 +93,15 @@ andoyer_series::error_table! {
         /// A scene whose rotation no series about a spin–orbit resonance serves.
         #[error("method = \"libration\": {reason}")]
         NoLibration { reason: String = "The reason." } => Theory, facts("method", "libration", "a body locked to an elliptic orbit");
+
+        /// A number that no state of a locked body has.
+        #[error("{argument}{} = {value}: it must be {bound}", indexed(*.index), value = Short(*.value))]
+        Locked {
+            argument: &'static str = "The argument.",
+            index: Option<usize> = "The index in it, if it has several numbers.",
+            value: f64 = "The value.",
+            bound: &'static str = "The requirement.",
+        } => Input, facts(*argument, *value, *bound);
 
         /// A time that is not finite, or too far from the epoch to be evaluated.
         #[error("times[{index}] = {value}: {}a time must be finite and within {} of the epoch{reason}", setting(*.epoch, *.span), distance(*.bound), value = Short(*.value))]

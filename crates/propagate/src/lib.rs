@@ -103,9 +103,10 @@ pub mod disturbers {
 
 #[cfg(feature = "torques")]
 pub mod libration_terms {
-    //! What is read of a body locked to an orbit.
+    //! A body locked to an orbit: the state that is asked for, and what is read of its motion.
     pub use crate::libration::solution::Libration;
     pub use crate::libration::terms::{LibrationAngle, LibrationTerm};
+    pub use crate::observed::locked::LockedState;
 }
 
 pub mod torques {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::disturbers::DisturbingBody;
+use andoyer_propagate::libration_terms::LockedState;
 use andoyer_propagate::options::MAX_ORDER;
 use andoyer_propagate::periods::ObservedPeriods;
 use andoyer_propagate::{Error, State};
@@ -15,7 +16,7 @@ use crate::body::Body;
 use crate::computing::{detached, interruptible};
 use crate::foreign::{self};
 use crate::motion::Motion;
-use crate::orbit::{self};
+use crate::orbit::{self, Orbit};
 use crate::scene_class::Scene;
 use crate::torque;
 use crate::values::immutable;
@@ -24,8 +25,8 @@ use crate::{array, error};
 pub(crate) mod arguments;
 
 use arguments::{
-    disturbing_bodies, disturbing_body, doubt, epoch, near, not_a_body, precession, rotation, sense, tolerance,
-    with_options,
+    disturbing_bodies, disturbing_body, doubt, epoch, near, not_a_body, not_an_orbit, precession, rotation, sense,
+    tolerance, with_options,
 };
 
 immutable!(Scene);
@@ -228,6 +229,78 @@ impl Scene {
         let scene = andoyer_propagate::Scene::from_andoyer_with(of_body, variables, time, torques);
         let scene = scene.map_err(error::propagation)?;
         with_options(class, body, (&scene, epoch), options)
+    }
+
+    /// The scene of a body that is locked to an orbit: relaxed, or with free librations (docs: locked rotation).
+    ///
+    /// The axis of least inertia follows the disturbing body; the axis of greatest inertia is near the normal of the orbit, or near the stable Cassini state that is nearest to it if the
+    /// node moves. The relaxed state is on the periodic motion of the resonance: forced librations alone. A natural start, at rest in the frame of the resonance, has free librations
+    /// as large as the forced ones.
+    ///
+    /// Parameters
+    /// ----------
+    /// body : Body
+    /// orbit : Orbit
+    ///     The orbit of the disturbing body.
+    /// resonance : float or Fraction, optional
+    ///     Rotations an orbit: 1/2, 1, 3/2, 2, … 4.
+    /// amplitudes : array_like, shape (3,), optional
+    ///     The largest angle of each free libration [rad]: in longitude, then the two of the pole, as of `Libration.amplitudes`.
+    /// phases : array_like, shape (3,), optional
+    ///     The phases of these angles at the epoch [rad], as of `Libration.phases`.
+    /// epoch : float or Time, optional
+    ///     Time of the state.
+    /// **options
+    ///     The other keyword arguments of `Scene`: tolerance, method, order, span, averaging, level, torques, name, source.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     Another resonance; an amplitude below 0; a number that is not finite.
+    /// TheoryError
+    ///     A resonance without a torque on this orbit, as 3/2 on a circle, or without a stable motion: the message says in which direction the body leaves it and how fast. Amplitudes beyond
+    ///     the range of the series.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = Scene.locked(Body([0.3, 0.35, 0.4]), Orbit(1.0, eccentricity=0.02), amplitudes=[0.01, 0, 0], tolerance=1e-9)
+    /// >>> scene.solve().libration.amplitudes.round(9)
+    /// array([0.01, 0.  , 0.  ])
+    #[classmethod]
+    #[pyo3(
+        signature = (body, orbit, *, resonance=None, amplitudes=None, phases=None, epoch=None, **options),
+        text_signature = "(body, orbit, *, resonance=1, amplitudes=(0.0, 0.0, 0.0), phases=(0.0, 0.0, 0.0), epoch=0.0, **options)"
+    )]
+    #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
+    fn locked<'py>(
+        class: &Bound<'py, PyType>,
+        body: &Bound<'py, PyAny>,
+        orbit: &Bound<'py, PyAny>,
+        resonance: Option<&Bound<'py, PyAny>>,
+        amplitudes: Option<&Bound<'py, PyAny>>,
+        phases: Option<&Bound<'py, PyAny>>,
+        epoch: Option<&Bound<'py, PyAny>>,
+        options: Option<Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = class.py();
+        let mut state = LockedState { epoch: self::epoch(epoch)?.0, ..LockedState::default() };
+        if let Some(resonance) = resonance {
+            state.resonance = array::number("resonance", resonance)?;
+        }
+        if let Some(amplitudes) = amplitudes {
+            state.amplitudes = array::fixed("amplitudes", amplitudes)?;
+        }
+        if let Some(phases) = phases {
+            // Those of `from_periods` are in turns.
+            state.phases = array::fixed("phases of librations", phases)?;
+        }
+        let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
+        let around = orbit.cast::<Orbit>().map_err(|_| not_an_orbit(orbit))?.get().0;
+        let find = |stop: &AtomicBool| andoyer_propagate::Scene::locked(of_body.clone(), &around, &state, stop);
+        let scene = interruptible(py, true, error::propagation, find)?;
+        let options = options.unwrap_or_else(|| PyDict::new(py));
+        options.set_item("orbit", orbit)?;
+        with_options(class, body, (&scene, epoch), Some(options))
     }
 
     /// Reads a scene from a TOML file.

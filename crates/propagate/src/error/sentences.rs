@@ -50,6 +50,11 @@ pub(super) fn setting(epoch: f64, span: Option<[f64; 2]>) -> String {
     format!("the epoch is {}{}; ", Short(epoch), span.unwrap_or_default())
 }
 
+/// "[2]" after the name of an array, or nothing after that of a number.
+pub(super) fn indexed(index: Option<usize>) -> String {
+    index.map(|index| format!("[{index}]")).unwrap_or_default()
+}
+
 /// The largest time from the epoch; it is 0 where the span begins or ends at the epoch.
 pub(super) fn distance(bound: f64) -> String {
     if bound == 0.0 { "0".to_owned() } else { format!("{bound:.3e}") }

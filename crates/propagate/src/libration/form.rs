@@ -10,6 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use andoyer_series::Error;
 use andoyer_series::birkhoff::Mode;
+use andoyer_series::num_complex::Complex;
 use andoyer_series::periodic::{DrivenForm, DrivenOptions};
 
 use super::shape::{LockedShape, PlaneMotion};
@@ -17,6 +18,12 @@ use crate::numerics::kept::KeptForms;
 
 /// Divisors below this part of the largest frequency end a normal form: the estimate refuses larger ones that are too small.
 const SMALLEST_DIVISOR: f64 = 1e-9;
+/// A motion about the resonance is unstable in the plane of the orbit, out of it, or both.
+pub(super) const UNSTABLE: [&str; 3] = [
+    "grow in each orbit: unstable in the orbit's plane, stable out of it",
+    "grow in each orbit: stable in the orbit's plane, unstable out of it",
+    "grow in each orbit: unstable in the orbit's plane and out of it",
+];
 /// Most harmonics of a phase.
 const HARMONICS: usize = 252;
 /// The last harmonics of the periodic motion and of its frame are at most this fraction of the tolerance, and not below the second number, which rounding reaches.
@@ -103,14 +110,21 @@ fn form(
             Some(known) => known.to_order(shape, order, &mut going)?,
             None => DrivenForm::new(shape, &shape.rates(), options, &mut going)?,
         };
-        let growth = |mode: &Mode<f64>| match mode {
-            Mode::Hyperbolic { rate } => Some([(TAU * rate.abs()).exp(), 0.0]),
+        let growing = |mode: &Mode<f64>| match mode {
+            Mode::Hyperbolic { rate } => Some(rate.abs()),
             _ => None,
         };
-        let multipliers: Vec<_> = form.modes().iter().filter_map(growth).collect();
-        if multipliers.is_empty() {
+        let rates: Vec<_> = form.modes().iter().map(growing).collect();
+        if rates.iter().all(Option::is_none) {
             return Ok(form);
         }
-        Err(Error::MultiplierUnsupported { multipliers, problem: "grow in each orbit: the motion is unstable" })
+        // Two columns of the frame for each mode; ψ and p_ψ are the first two rows.
+        let [frame, _] = form.frame(&vec![0.0; shape.rates().len()]);
+        let size = |rows: &[Vec<Complex<f64>>], column: usize| rows.iter().map(|row| row[column].norm()).sum::<f64>();
+        let in_plane = |mode: usize| size(&frame[..2], 2 * mode) > size(&frame[2..], 2 * mode);
+        let unstable = |plane: bool| (0..rates.len()).any(|mode| rates[mode].is_some() && in_plane(mode) == plane);
+        let problem = UNSTABLE[usize::from(unstable(false)) + usize::from(unstable(true) && unstable(false))];
+        let multipliers = rates.into_iter().flatten().map(|rate| [(TAU * rate).exp(), 0.0]).collect();
+        Err(Error::MultiplierUnsupported { multipliers, problem })
     })
 }

@@ -8,7 +8,9 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::shape::{LockedShape, PlaneMotion};
 use crate::cassini::{CassiniState, cassini_states};
+use crate::input::body::Body;
 use crate::input::scene::Scene;
+use crate::input::state::State;
 use crate::motion::plan::in_words;
 use crate::numerics::phase::Phase;
 use crate::orbit::disturbing_body::DisturbingBody;
@@ -41,6 +43,8 @@ pub(crate) struct Lock {
     pub(crate) half_node: Option<Phase>,
     /// From the sorted axes to the body's principal axes.
     pub(crate) body: UnitQuaternion<f64>,
+    /// From the frame to inertial components at the epoch.
+    pub(crate) turned: UnitQuaternion<f64>,
     /// ψ, p_ψ − C W₃, θ, p_θ, φ, p_φ at the epoch.
     pub(crate) state: [f64; 6],
     /// A bound of the angle by which the other bodies move the body \[rad\].
@@ -51,15 +55,11 @@ impl Lock {
     /// The lock of a scene about principal axes, or the reason why it has none.
     pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
         let (orbit, others) = strongest(scene.asked_disturbing())?;
-        let (body, moments) = sorted(scene.body().moments());
-        let [a, b, c] = moments;
-        if a == b {
-            return Err("A = B: no torque turns the body about its orbit's normal".to_owned());
-        }
+        let (body, [a, b, c]) = axes_of(scene.body())?;
         let spin = spin(scene, orbit, body * Vector3::z());
         let nearest = (2.0 * spin).round() as i32;
         let orders = 1..=MOST_IN_TWO;
-        let of = |twice: i32| Self::of_resonance(scene, (orbit, others), ([a / c, b / c, 1.0], body), twice);
+        let of = |twice: i32| Self::of_resonance(scene, (orbit, others), ([a, b, c], body), twice);
         let mut found = if orders.contains(&nearest) {
             of(nearest)
         } else {
@@ -68,7 +68,7 @@ impl Lock {
         };
         // In the middle of a swing a body can be nearer to the rate of the next resonance than to its own. |X| ≤ (1 − e)⁻³ bounds ω_ψ, and a pendulum swings no faster than ω_ψ.
         let kappa = orbit.disturbing_fraction();
-        let fastest = 3.0 * kappa * (b - a) / c / (1.0 - orbit.eccentricity()).powi(3);
+        let fastest = 3.0 * kappa * (b - a) / (1.0 - orbit.eccentricity()).powi(3);
         for twice in [nearest.saturating_sub(1), nearest.saturating_add(1)] {
             if orders.contains(&twice)
                 && (spin - f64::from(twice) / 2.0).powi(2) < fastest
@@ -94,29 +94,45 @@ impl Lock {
         (moments, body): ([f64; 3], UnitQuaternion<f64>),
         twice: i32,
     ) -> Result<Self, String> {
-        let precession = PlaneMotion { phase_rate: 0.0, spin: 0.0, sideways: 0.0, obliquity: 0.0, argument: None };
-        let attraction = orbit.disturbing_fraction();
-        let eccentricity = orbit.eccentricity();
-        let [_, resonant, _] = hansen(eccentricity, twice.unsigned_abs() as usize);
-        let mut shape = LockedShape { moments, eccentricity, attraction, twice, resonant, precession };
-        let torque = resonant.abs();
-        if torque < NO_TORQUE {
-            return Err(format!("the resonance {} has no torque on this orbit", in_words(twice)));
-        }
+        let mut shape = shape_of(orbit, moments, twice)?;
+        let torque = shape.resonant.abs();
         let others = moved_by_others(scene, others / (orbit.strength() * torque), orbit.mean_motion())?;
         shape.precession = precession_of(scene, orbit, &shape, body)?;
         Ok(Self { others, ..Self::about(scene, orbit, shape, body)? })
     }
 
+    /// The lock to a resonance at a time, of a body that stands still in its frame.
+    pub(crate) fn at_rest(body: &Body, orbit: &Orbit, twice: i32, epoch: f64) -> Result<Self, String> {
+        let (turn, moments) = axes_of(body)?;
+        let mut shape = shape_of(orbit, moments, twice)?;
+        let still = |shape: &LockedShape| {
+            let attitude = Place::new(orbit, epoch, shape).turned() * turn.inverse();
+            let rates = attitude.inverse() * (orbit.mean_motion() * orbit.axes_at(epoch)[2]);
+            Scene::new(body.clone(), State { epoch, attitude, angular_velocity: rates })
+        };
+        // The pole of the nearest stable Cassini state to the orbit's normal.
+        shape.precession = precession_of(&still(&shape), orbit, &shape, turn)?;
+        Self::about(&still(&shape), orbit, shape, turn)
+    }
+
+    /// The attitude, and the angular velocity about the body's axes, of ψ, p_ψ − C W₃, θ, p_θ, φ, p_φ at the epoch.
+    pub(crate) fn attitude_and_rates(&self, variables: [f64; 6]) -> (UnitQuaternion<f64>, Vector3<f64>) {
+        let [psi, p_psi, theta, p_theta, phi, p_phi] = variables;
+        let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());
+        let across = (p_psi + self.shape.precession.spin + sin_theta * p_phi) / cos_theta;
+        let momentum = Vector3::new(p_phi, cos_phi * p_theta + sin_phi * across, cos_phi * across - sin_phi * p_theta);
+        let rates = momentum.component_div(&Vector3::from(self.shape.moments)) * self.mean_motion;
+        let seen = UnitQuaternion::from_euler_angles(phi, theta, psi);
+        (self.turned * seen * self.body.inverse(), self.body * rates)
+    }
+
     fn about(scene: &Scene, orbit: &Orbit, shape: LockedShape, body: UnitQuaternion<f64>) -> Result<Self, String> {
         let (resonance, n, epoch) = (f64::from(shape.twice) / 2.0, orbit.mean_motion(), scene.state().epoch);
         let anomaly = orbit.mean_anomaly(epoch);
-        let [node, argument] = orbit.node_and_argument(epoch);
-        let [start, longitude, argument] = [&anomaly, &node, &argument].map(|phase| phase.angle((0.0, 0.0)));
-        let across = if shape.is_across() { FRAC_PI_2 } else { 0.0 };
-        let [turn, alpha] = [resonance * start + across, argument + resonance * start + across];
-        let tilt = about(2, longitude) * about(0, orbit.elements()[3] + shape.precession.obliquity);
-        let seen = (tilt * about(2, alpha)).inverse() * scene.state().attitude;
+        let [node, _] = orbit.node_and_argument(epoch);
+        let place = Place::new(orbit, epoch, &shape);
+        let Place { start, longitude, argument, turn, alpha, tilt } = place;
+        let seen = place.turned().inverse() * scene.state().attitude;
         // A half turn about an axis of the body is another equilibrium: the nearest one counts.
         let near = |turn: &UnitQuaternion<f64>| (seen * turn).w.abs();
         let halves = [0, 1, 2].map(|axis| body * about(axis, PI));
@@ -146,10 +162,65 @@ impl Lock {
             plane,
             half_node,
             body,
+            turned: place.turned(),
             state,
             others: 0.0,
         })
     }
+}
+
+/// Where the frame of a resonance is at a time.
+#[derive(Clone, Copy)]
+struct Place {
+    /// M, the longitude of the node and the argument of pericentre \[rad\].
+    start: f64,
+    longitude: f64,
+    argument: f64,
+    /// r M + ψ₀, and α with the argument.
+    turn: f64,
+    alpha: f64,
+    /// To inertial components from those with axis 1 along the node and axis 3 along that of the frame.
+    tilt: UnitQuaternion<f64>,
+}
+
+impl Place {
+    fn new(orbit: &Orbit, epoch: f64, shape: &LockedShape) -> Self {
+        let [node, argument] = orbit.node_and_argument(epoch);
+        let [start, longitude, argument] =
+            [&orbit.mean_anomaly(epoch), &node, &argument].map(|phase| phase.angle((0.0, 0.0)));
+        let across = if shape.is_across() { FRAC_PI_2 } else { 0.0 };
+        let turn = f64::from(shape.twice) / 2.0 * start + across;
+        let tilt = about(2, longitude) * about(0, orbit.elements()[3] + shape.precession.obliquity);
+        Self { start, longitude, argument, turn, alpha: argument + turn, tilt }
+    }
+
+    /// From the frame to inertial components.
+    fn turned(&self) -> UnitQuaternion<f64> {
+        self.tilt * about(2, self.alpha)
+    }
+}
+
+/// The rotation from the sorted axes of a body to its own, and the moments A, B, C in units of C.
+fn axes_of(body: &Body) -> Result<(UnitQuaternion<f64>, [f64; 3]), String> {
+    let (turn, [a, b, c]) = sorted(body.moments());
+    if a == b {
+        return Err("A = B: no torque turns the body about its orbit's normal".to_owned());
+    }
+    Ok((turn, [a / c, b / c, 1.0]))
+}
+
+/// The equations of a resonance on an orbit whose plane stands still.
+fn shape_of(orbit: &Orbit, moments: [f64; 3], twice: i32) -> Result<LockedShape, String> {
+    let precession = PlaneMotion { phase_rate: 0.0, spin: 0.0, sideways: 0.0, obliquity: 0.0, argument: None };
+    let (eccentricity, attraction) = (orbit.eccentricity(), orbit.disturbing_fraction());
+    if orbit.is_hyperbola() {
+        return Err("a hyperbola has no period".to_owned());
+    }
+    let [_, resonant, _] = hansen(eccentricity, twice.unsigned_abs() as usize);
+    if resonant.abs() < NO_TORQUE {
+        return Err(format!("the resonance {} has no torque on this orbit", in_words(twice)));
+    }
+    Ok(LockedShape { moments, eccentricity, attraction, twice, resonant, precession })
 }
 
 /// Rotations an orbit about an axis of the body, in the frame that turns with the pericentre.

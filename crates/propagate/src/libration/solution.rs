@@ -1,12 +1,13 @@
 //! The order that a tolerance needs. The estimate of each order that is tried costs no Fourier series ([`Convergence`]); the series of the order that is taken is inserted into
 //! the equations of motion.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use andoyer_series::Error as SeriesError;
+use andoyer_series::error::Short;
 use andoyer_series::periodic::{DrivenForm, MOST_WORK};
 
 use super::convergence::Convergence;
@@ -18,9 +19,9 @@ use crate::error::Error;
 use crate::motion::plan::{bound_in_words, in_words};
 
 /// Orders without a phase of the orbit, with one and with two.
-const HIGHEST: [usize; 3] = [16, 12, 6];
+pub(super) const HIGHEST: [usize; 3] = [16, 12, 6];
 /// The first order that is tried.
-const FIRST: usize = 4;
+pub(super) const FIRST: usize = 4;
 /// Orders that can be asked for.
 const ORDERS: RangeInclusive<usize> = 2..=16;
 /// An amplitude \[rad\] that is blamed before a divisor.
@@ -81,7 +82,27 @@ pub(crate) fn solved(lock: Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<R
     match climb(&lock, wanted, stop) {
         Ok(found) => Ok(found),
         Err(SeriesError::Interrupted { .. }) => Err(Error::Stopped),
-        Err(error) => Ok(Err(format!("about the resonance {}, {error}", in_words(lock.shape.twice)))),
+        Err(error) => Ok(Err(refusal(&lock, &error))),
+    }
+}
+
+/// The resonance of a lock in words.
+pub(super) fn in_two(lock: &Lock) -> String {
+    in_words(lock.shape.twice)
+}
+
+/// Why a resonance has no form.
+pub(super) fn refusal(lock: &Lock, error: &SeriesError) -> String {
+    let about = in_two(lock);
+    match error {
+        SeriesError::MultiplierUnsupported { multipliers, problem } if form::UNSTABLE.contains(problem) => {
+            let how = problem.rsplit(": ").next().unwrap_or_default();
+            let largest = multipliers.iter().map(|[re, im]| re.hypot(*im)).fold(1.0, f64::max);
+            let time = Short::rounded(TAU / (lock.mean_motion * largest.ln()), 3);
+            let orbits = Short::rounded(1.0 / largest.ln(), 3);
+            format!("the resonance {about} is {how}: a small angle grows by a factor e in {time} units of time ({orbits} orbits)")
+        }
+        error => format!("about the resonance {about}, {error}"),
     }
 }
 
@@ -115,6 +136,13 @@ struct Climb<'a> {
     residual: Option<f64>,
     /// Why no higher order is tried, if its cost is the reason.
     left_out: Option<String>,
+}
+
+impl Libration {
+    /// The libration of a Fourier series, without an estimate of its error.
+    pub(super) fn of(lock: &Lock, course: FourierMotion, order: usize) -> Self {
+        Self { lock: lock.clone(), course, order, error: 0.0, residual: 0.0, left_out: None }
+    }
 }
 
 impl Climb<'_> {
@@ -223,7 +251,7 @@ fn libration(
     }
     let dropped = dropped + course.drop_below(DROPPED[1] * wanted.tolerance);
     let error = convergence.error() + residual + dropped + lock.others;
-    Ok(Some(Libration { lock: lock.clone(), course, order: form.order(), error, residual, left_out: None }))
+    Ok(Some(Libration { error, residual, ..Libration::of(lock, course, form.order()) }))
 }
 
 /// Why a series is not near the motion: the smallest divisor among low multiples, or the amplitude, or the span. `linear` is the motion of order 0.

@@ -1,6 +1,8 @@
-//! Scenes from published quantities: a pair of periods, or Andoyer variables.
+//! Scenes from published quantities: a pair of periods, Andoyer variables, a spin–orbit resonance.
 
 mod andoyer;
+#[cfg(feature = "torques")]
+pub(crate) mod locked;
 mod nearest;
 pub(crate) mod periods;
 

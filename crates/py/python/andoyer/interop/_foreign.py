@@ -24,6 +24,8 @@ UNITS = {
     "precession": "s",
     "rotation": "s",
     "phases": "cycle",
+    "phases of librations": "rad",
+    "amplitudes": "rad",
     "epoch": "s",
     "epochs": "s",
     "span": "s",
