@@ -80,6 +80,6 @@ impl Scene {
         let lock = Lock::at_rest(&Body::new(body.moments())?, orbit, twice, state.epoch).map_err(no)?;
         let variables = relaxed::state(&lock, state.amplitudes, state.phases, stop)?.map_err(no)?;
         let (attitude, rates) = lock.attitude_and_rates(variables);
-        Ok(scene_about_principal_axes(body, state.epoch, attitude, rates).disturbing([(*orbit).into()]))
+        Ok(scene_about_principal_axes(body, state.epoch, attitude, rates).disturbing([*orbit]))
     }
 }
