@@ -6,7 +6,7 @@ import inspect
 import pytest
 
 import andoyer
-from andoyer import fit, output
+from andoyer import fit, interop, output
 
 JAX = ("jax.angular_velocity", "jax.attitude", "jax.state")
 NEEDS = dict.fromkeys(("fit.attitudes", "fit.light_curve", "fit.Fit", "fit.Fit.ensemble"), "scipy") | dict.fromkeys(JAX, "jax")
@@ -24,6 +24,7 @@ def documented():
     for name in fit.__all__:
         yield f"fit.{name}", getattr(fit, name)
     yield from ((f"fit.Fit.{member}", value) for member, value in vars(fit.Fit).items() if not member.startswith("_") and callable(value))
+    yield from ((f"interop.{name}", getattr(interop, name)) for name in interop.__all__)
     yield from ((f"output.{name}", getattr(output, name)) for name in output.__all__ if callable(getattr(output, name)) and name != "Progress")
 
 

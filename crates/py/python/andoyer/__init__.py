@@ -116,7 +116,7 @@ __all__ = [
 if not _TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
-        """`andoyer.fit`, `andoyer.jax` and `andoyer.output` are imported when they are first used; type checkers want the import written."""
-        if name in ("fit", "jax", "output"):
+        """`andoyer.fit`, `andoyer.interop`, `andoyer.jax` and `andoyer.output` are imported when they are first used; type checkers want the import written."""
+        if name in ("fit", "interop", "jax", "output"):
             return _importlib.import_module(f"andoyer.{name}")
         raise AttributeError(f"module 'andoyer' has no attribute {name!r}")
