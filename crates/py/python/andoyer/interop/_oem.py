@@ -19,10 +19,9 @@ import numpy as np
 from andoyer._core import TabulatedOrbit
 from andoyer._quaternions import Array
 from andoyer._refusal import refusal, unreadable
-from andoyer.interop._foreign import has_units
-from andoyer.interop._foreign import plain as stripped
+from andoyer.interop._foreign import has_units, plain
 from andoyer.output.calendar import READABLE, counts, parse, tdb
-from andoyer.output.message import ascending, choice, messages, numbers, plain
+from andoyer.output.message import ascending, choice, messages, row, spelled
 from andoyer.output.raw import OEM, RawSegment
 
 GM = {
@@ -212,15 +211,15 @@ def _seconds(epoch: Any) -> Fraction:
             raise refusal("epoch", epoch, "one time", f"must be one time: got {epoch!r}")
         return counts(epoch, "TDB")[0]
     try:
-        return Fraction(0 if epoch is None else float(stripped("epoch", epoch)))
+        return Fraction(0 if epoch is None else float(plain("epoch", epoch)))
     except (OverflowError, ValueError):
         raise refusal("epoch", epoch, "finite", f"must be a finite number of seconds, or an astropy Time: got {epoch!r}") from None
 
 
 def _gm(gm: Any, metadata: dict[str, str], key: str) -> float | Any:
     if gm is not None:
-        return stripped("gm", gm) * 1e-9 if has_units(gm) else gm
-    name = plain(metadata[key]).replace("CENTRE", "CENTER").replace("EARTH MOON", "EARTH-MOON")
+        return plain("gm", gm) * 1e-9 if has_units(gm) else gm
+    name = spelled(metadata[key]).replace("CENTRE", "CENTER").replace("EARTH MOON", "EARTH-MOON")
     if name not in GM:
         raise refusal("gm", gm, list(GM), f"must be given [km³/s²]: it is not known for {key} = {metadata[key]}")
     return GM[name]
@@ -244,7 +243,7 @@ def _segment(raw: RawSegment, epoch: Fraction) -> Read:
     if not raw.records:
         raise ValueError(f"{raw.where}: a segment must have data")
     accelerated = len(raw.records[0].values) > len(STATE)
-    table = np.array([numbers(record, STATE + ACCELERATION * accelerated) for record in raw.records])
+    table = np.array([row(record, STATE + ACCELERATION * accelerated) for record in raw.records])
     moments = ascending(raw, system)
     left += _within(raw, system, moments)
     if accelerated:
@@ -263,9 +262,9 @@ def _frame(raw: RawSegment) -> list[str]:
         A frame that turns, or whose axes are not known.
     """
     given, epoch = raw.metadata["REF_FRAME"], raw.metadata.get("REF_FRAME_EPOCH")
-    if plain(given) in OF_DATE:
+    if spelled(given) in OF_DATE:
         return [] if epoch else [f"{raw.where}: the axes of REF_FRAME = {given} are those of each date, and turn by 50″ a year; they are taken as fixed"]
-    if plain(given) not in INERTIAL:
+    if spelled(given) not in INERTIAL:
         raise ValueError(f"{raw.where}: REF_FRAME must be inertial, one of {', '.join(INERTIAL + OF_DATE)}: got {given!r}")
     return []
 
@@ -309,7 +308,7 @@ def _joins(first: RawSegment, before: Read, second: RawSegment, after: Read) -> 
     """
     for key in SHARED:
         given = [raw.metadata.get(key) for raw in (first, second)]
-        names = {plain(name or "") for name in given}
+        names = {spelled(name or "") for name in given}
         if len(names) > 1 and names != SAME:
             raise ValueError(
                 f"{second.where}: {key} must be that of the segment before, of {first.where}, {given[0]}: got {given[1]}; segments=i reads one segment"

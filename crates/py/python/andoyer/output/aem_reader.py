@@ -19,7 +19,7 @@ from andoyer._refusal import refusal, unreadable
 from andoyer.output.aem import METHODS, Heading
 from andoyer.output.attitude_types import FIELDS, VERSION_1, VERSION_2, attitudes_of
 from andoyer.output.calendar import J2000, READABLE, count, tdb
-from andoyer.output.message import ascending, choice, messages, numbers, plain
+from andoyer.output.message import ascending, choice, messages, row, spelled
 from andoyer.output.raw import AEM, RawMessage, RawSegment
 from andoyer.output.rows import samples_of
 
@@ -122,7 +122,7 @@ def _segment(message: RawMessage, raw: RawSegment, date: datetime | None) -> Seg
     fields = FIELDS[name]
     if message.version == "1.0" and name.startswith("QUATERNION") and choice(raw, "QUATERNION_TYPE", ["FIRST", "LAST"]) == "FIRST":
         fields = _scalar_first(fields)
-    table = np.array([numbers(record, fields) for record in raw.records])[:, [fields.index(field) for field in FIELDS[name]]]
+    table = np.array([row(record, fields) for record in raw.records])[:, [fields.index(field) for field in FIELDS[name]]]
     sequence = _sequence(raw, name)
     times = _times(raw, system, date)
     backwards = message.version == "1.0" and choice(raw, "ATTITUDE_DIR", ["A2B", "B2A"]) == "B2A"
@@ -179,11 +179,11 @@ def _times(raw: RawSegment, system: str, date: datetime | None) -> Array:
 
 def _of_second(raw: RawSegment, attitude: Array, rates: Array) -> Array:
     """An angular velocity in components of frame B."""
-    frame = plain(raw.metadata.get("ANGVEL_FRAME", ""))
+    frame = spelled(raw.metadata.get("ANGVEL_FRAME", ""))
     # Figure G-13 of the standard has the keyword in the place of the name.
-    if frame in (plain(raw.metadata["REF_FRAME_B"]), "REF FRAME B"):
+    if frame in (spelled(raw.metadata["REF_FRAME_B"]), "REF FRAME B"):
         return rates
-    if frame in (plain(raw.metadata["REF_FRAME_A"]), "REF FRAME A"):
+    if frame in (spelled(raw.metadata["REF_FRAME_A"]), "REF FRAME A"):
         return rotate(conjugate(attitude), rates)
     raise ValueError(f"ANGVEL_FRAME must be REF_FRAME_A or REF_FRAME_B: got {raw.metadata.get('ANGVEL_FRAME')!r}")
 
@@ -199,7 +199,7 @@ def _of_body(raw: RawSegment, backwards: bool, times: Array, attitude: Array, ra
 
     `attitude` takes components of the second frame to those of the first; in the direction B2A of version 1 the second frame is A.
     """
-    first, second = (bool(ON_BODY.fullmatch(plain(raw.metadata[key]))) for key in ("REF_FRAME_A", "REF_FRAME_B"))
+    first, second = (bool(ON_BODY.fullmatch(spelled(raw.metadata[key]))) for key in ("REF_FRAME_A", "REF_FRAME_B"))
     body_is_a = first and not second
     if body_is_a != backwards:
         return samples_of(times, conjugate(attitude), -rotate(attitude, rates)), body_is_a

@@ -45,17 +45,17 @@ def choice(raw: RawSegment, key: str, allowed: list[str]) -> str:
     if value is None:
         raise ValueError(f"{raw.where}: {key} must be given")
     for name in allowed:
-        if plain(value) == plain(name):
+        if spelled(value) == spelled(name):
             return name
     raise ValueError(f"{raw.where}: {key} must be {', '.join(allowed)}: got {value!r}")
 
 
-def plain(text: str) -> str:
+def spelled(text: str) -> str:
     """A text without the differences that the standard ignores (6.8.6, 6.8.8)."""
     return " ".join(text.replace("_", " ").upper().split())
 
 
-def numbers(record: Record, fields: list[str]) -> list[float]:
+def row(record: Record, fields: list[str]) -> list[float]:
     """The numbers of a record, by name or by place.
 
     Raises
