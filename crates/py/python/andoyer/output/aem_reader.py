@@ -8,7 +8,6 @@ import os
 import re
 from dataclasses import dataclass
 from datetime import datetime
-from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
 
@@ -19,13 +18,10 @@ from andoyer._quaternions import Array, conjugate, rotate
 from andoyer._refusal import refusal, unreadable
 from andoyer.output.aem import METHODS, Heading
 from andoyer.output.attitude_types import FIELDS, VERSION_1, VERSION_2, attitudes_of
-from andoyer.output.calendar import J2000, READABLE, count, parse, tdb
-from andoyer.output.kvn import parse_kvn
-from andoyer.output.raw import RawMessage, RawSegment, Record
+from andoyer.output.calendar import J2000, READABLE, count, tdb
+from andoyer.output.message import ascending, choice, messages, row, spelled
+from andoyer.output.raw import AEM, RawMessage, RawSegment
 from andoyer.output.rows import samples_of
-from andoyer.output.xml import parse_xml
-
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 ON_BODY = re.compile(r"(SC BODY|INSTRUMENT|ACC|ACTUATOR|AST|CSS|DSS|ESA|GYRO FRAME|IMU FRAME|MTA|PX|RW|SA|SENSOR|STARR?TT?RACKER|TAM)( \w+)?")
 """Frames of a spacecraft, as the registry of the CCSDS names them; every other frame is one that it turns against."""
@@ -112,33 +108,24 @@ def read_aem_segments(path: str | os.PathLike[str], *, date: datetime | None = N
     """
     data = Path(path).read_bytes()
     try:
-        messages = parse_xml(data) if data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<") else [parse_kvn(_decoded(data))]
-        return [_segment(message, segment, date) for message in messages for segment in message.segments]
+        return [_segment(message, segment, date) for message in messages(data, AEM) for segment in message.segments]
     except ValueError as error:
         raise unreadable(path, error) from error
 
 
-def _decoded(data: bytes) -> str:
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = data[: error.start].count(b"\n") + 1
-        raise ValueError(f"line {line}: must be text") from error
-
-
 def _segment(message: RawMessage, raw: RawSegment, date: datetime | None) -> Segment:
     metadata = raw.metadata
-    name = _choice(raw, "ATTITUDE_TYPE", VERSION_1 if message.version == "1.0" else VERSION_2)
-    system = _choice(raw, "TIME_SYSTEM", READABLE)
+    name = choice(raw, "ATTITUDE_TYPE", VERSION_1 if message.version == "1.0" else VERSION_2)
+    system = choice(raw, "TIME_SYSTEM", READABLE)
     if not raw.records:
         raise ValueError(f"{raw.where}: a segment must have data")
     fields = FIELDS[name]
-    if message.version == "1.0" and name.startswith("QUATERNION") and _choice(raw, "QUATERNION_TYPE", ["FIRST", "LAST"]) == "FIRST":
+    if message.version == "1.0" and name.startswith("QUATERNION") and choice(raw, "QUATERNION_TYPE", ["FIRST", "LAST"]) == "FIRST":
         fields = _scalar_first(fields)
-    table = np.array([_numbers(record, fields) for record in raw.records])[:, [fields.index(field) for field in FIELDS[name]]]
+    table = np.array([row(record, fields) for record in raw.records])[:, [fields.index(field) for field in FIELDS[name]]]
     sequence = _sequence(raw, name)
     times = _times(raw, system, date)
-    backwards = message.version == "1.0" and _choice(raw, "ATTITUDE_DIR", ["A2B", "B2A"]) == "B2A"
+    backwards = message.version == "1.0" and choice(raw, "ATTITUDE_DIR", ["A2B", "B2A"]) == "B2A"
     try:
         with np.errstate(over="ignore", invalid="ignore"):
             attitude, rates = attitudes_of(name, table, sequence)
@@ -167,36 +154,6 @@ def _segment(message: RawMessage, raw: RawSegment, date: datetime | None) -> Seg
     return Segment(heading, samples)
 
 
-def _choice(raw: RawSegment, key: str, allowed: list[str]) -> str:
-    """A value that must be one of a few texts, in any case; blanks count as underscores."""
-    value = raw.metadata.get(key)
-    if value is None:
-        raise ValueError(f"{raw.where}: {key} must be given")
-    for choice in allowed:
-        if _plain(value) == _plain(choice):
-            return choice
-    raise ValueError(f"{raw.where}: {key} must be {', '.join(allowed)}: got {value!r}")
-
-
-def _plain(text: str) -> str:
-    """A text without the differences that the standard ignores (6.8.6, 6.8.8)."""
-    return " ".join(text.replace("_", " ").upper().split())
-
-
-def _numbers(record: Record, fields: list[str]) -> list[float]:
-    values = record.values
-    if isinstance(values, dict):
-        if set(values) != set(fields):
-            raise ValueError(f"{record.where}: a record of this type must have {', '.join(fields)}: got {', '.join(values)}")
-        values = [values[field] for field in fields]
-    if len(values) != len(fields):
-        raise ValueError(f"{record.where}: a record of this type must have {len(fields)} numbers, {', '.join(fields)}: got {len(values)}")
-    for field, value in zip(fields, values):
-        if not NUMBER.fullmatch(value) or not np.isfinite(float(value)):
-            raise ValueError(f"{record.where}: {field} must be a finite number: got {value!r}")
-    return [float(value) for value in values]
-
-
 def _scalar_first(fields: list[str]) -> list[str]:
     """The order of QUATERNION_TYPE = FIRST: QC before the others, its derivative before theirs."""
     moved = ["QC", *fields[:3], *fields[4:]]
@@ -213,14 +170,7 @@ def _sequence(raw: RawSegment, name: str) -> str:
 
 
 def _times(raw: RawSegment, system: str, date: datetime | None) -> Array:
-    moments: list[Fraction] = []
-    for record in raw.records:
-        try:
-            moments.append(parse(record.epoch, system))
-        except ValueError as error:
-            raise ValueError(f"{record.where}: {error}") from error
-        if len(moments) > 1 and moments[-2] >= moments[-1]:
-            raise ValueError(f"{record.where}: times must ascend: got {record.epoch} after one that is not before it")
+    moments = ascending(raw, system)
     if date is None:
         return tdb(moments, system)
     zero = count(date, system)
@@ -229,11 +179,11 @@ def _times(raw: RawSegment, system: str, date: datetime | None) -> Array:
 
 def _of_second(raw: RawSegment, attitude: Array, rates: Array) -> Array:
     """An angular velocity in components of frame B."""
-    frame = _plain(raw.metadata.get("ANGVEL_FRAME", ""))
+    frame = spelled(raw.metadata.get("ANGVEL_FRAME", ""))
     # Figure G-13 of the standard has the keyword in the place of the name.
-    if frame in (_plain(raw.metadata["REF_FRAME_B"]), "REF FRAME B"):
+    if frame in (spelled(raw.metadata["REF_FRAME_B"]), "REF FRAME B"):
         return rates
-    if frame in (_plain(raw.metadata["REF_FRAME_A"]), "REF FRAME A"):
+    if frame in (spelled(raw.metadata["REF_FRAME_A"]), "REF FRAME A"):
         return rotate(conjugate(attitude), rates)
     raise ValueError(f"ANGVEL_FRAME must be REF_FRAME_A or REF_FRAME_B: got {raw.metadata.get('ANGVEL_FRAME')!r}")
 
@@ -249,7 +199,7 @@ def _of_body(raw: RawSegment, backwards: bool, times: Array, attitude: Array, ra
 
     `attitude` takes components of the second frame to those of the first; in the direction B2A of version 1 the second frame is A.
     """
-    first, second = (bool(ON_BODY.fullmatch(_plain(raw.metadata[key]))) for key in ("REF_FRAME_A", "REF_FRAME_B"))
+    first, second = (bool(ON_BODY.fullmatch(spelled(raw.metadata[key]))) for key in ("REF_FRAME_A", "REF_FRAME_B"))
     body_is_a = first and not second
     if body_is_a != backwards:
         return samples_of(times, conjugate(attitude), -rotate(attitude, rates)), body_is_a
@@ -259,7 +209,7 @@ def _of_body(raw: RawSegment, backwards: bool, times: Array, attitude: Array, ra
 def _interpolation(raw: RawSegment) -> tuple[str, int] | None:
     if "INTERPOLATION_METHOD" not in raw.metadata:
         return None
-    method, degree = _choice(raw, "INTERPOLATION_METHOD", METHODS), _given(raw, "INTERPOLATION_DEGREE")
+    method, degree = choice(raw, "INTERPOLATION_METHOD", METHODS), _given(raw, "INTERPOLATION_DEGREE")
     if not re.fullmatch(r"\+?\d{1,9}", degree, re.ASCII):
         raise ValueError(f"{raw.where}: INTERPOLATION_DEGREE must be a whole number: got {degree!r}")
     return method, int(degree)

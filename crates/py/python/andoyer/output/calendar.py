@@ -111,8 +111,10 @@ def seconds_of_tdb(date: datetime, system: str) -> float:
     return float(tdb([count(date, system)], system)[0])
 
 
-def tdb(moments: Sequence[Fraction], system: str) -> Array:
-    """TDB seconds since J2000 at times given in seconds since 2000-01-01T12:00:00 of the scale.
+def tdb(moments: Sequence[Fraction], system: str, epoch: Fraction = Fraction(0)) -> Array:
+    """TDB seconds since J2000, less `epoch`, at times given in seconds since 2000-01-01T12:00:00 of the scale.
+
+    For TCB and TCG the difference is formed after rounding to doubles.
 
     Raises
     ------
@@ -120,7 +122,7 @@ def tdb(moments: Sequence[Fraction], system: str) -> Array:
         A scale other than TDB without astropy.
     """
     if system == "TDB":
-        return np.array([float(moment) for moment in moments])
+        return np.array([float(moment - epoch) for moment in moments])
     erfa = _erfa(f"converting {system} to TDB")
     # GPS and UTC are counted in SI seconds; 2000-01-01T12:00:00 UTC was 32 s of TAI later.
     behind = {"GPS": GPS_BEHIND_TAI, "UTC": _leap_seconds(J2000.date()) if system == "UTC" else 0}.get(system, 0)
@@ -128,14 +130,14 @@ def tdb(moments: Sequence[Fraction], system: str) -> Array:
     given = [divmod(moment + offset, DAY) for moment in moments]
     julian = np.array([[float(JULIAN_J2000 + days), float(rest / DAY)] for days, rest in given]).T
     if system == "TCB":
-        return _since_j2000(*erfa.tcbtdb(*julian))
+        return _since_j2000(*erfa.tcbtdb(*julian)) - float(epoch)
     if system == "TCG":
         julian = np.array(erfa.tcgtt(*julian))
     less_tt = erfa.dtdb(*julian, 0.0, 0.0, 0.0, 0.0)
     if system == "TCG":
-        together: Array = _since_j2000(*julian) + less_tt
+        together: Array = _since_j2000(*julian) + less_tt - float(epoch)
         return together
-    return np.array([float(moment + offset + Fraction(float(less))) for moment, less in zip(moments, less_tt)])
+    return np.array([float(moment + offset + Fraction(float(less)) - epoch) for moment, less in zip(moments, less_tt)])
 
 
 def _since_j2000(first: Array, second: Array) -> Array:

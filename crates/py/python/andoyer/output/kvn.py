@@ -1,15 +1,15 @@
-"""Parser of the keyword = value notation of an AEM (504.0-B-2, section 6)."""
+"""Parser of the keyword = value notation of an AEM (504.0-B-2, section 6) and of an OEM (502.0-B-3, section 7)."""
 
 import re
 
-from andoyer.output.raw import RawMessage, RawSegment, Record, version_of
+from andoyer.output.raw import Kind, RawMessage, RawSegment, Record, message_of
 
 LINE_END = re.compile(r"\r\n|\n\r|\r|\n")
 ASSIGNMENT = re.compile(r"([A-Z][A-Z0-9_]*)\s*=\s*(.*)", re.ASCII)
 
 
-def parse_kvn(text: str) -> RawMessage:
-    """Parse the message in a text.
+def parse_kvn(text: str, kind: Kind) -> RawMessage:
+    """Parse the message of that kind in a text.
 
     Raises
     ------
@@ -20,9 +20,9 @@ def parse_kvn(text: str) -> RawMessage:
     if not lines:
         raise ValueError("line 1: the file is empty")
     key, value = _assignment(*lines[0])
-    if key != "CCSDS_AEM_VERS":
-        raise ValueError(f"line {lines[0][0]}: an AEM must start with CCSDS_AEM_VERS: got {key}")
-    message = RawMessage(version_of(value, f"line {lines[0][0]}"))
+    if key != kind.keyword:
+        raise ValueError(f"line {lines[0][0]}: an {kind.name} must start with {kind.keyword}: got {key}")
+    message = message_of(kind, value, f"line {lines[0][0]}")
     state: _State = _Header(message)
     for number, line in lines[1:]:
         state = state.take(number, line)
@@ -70,7 +70,7 @@ class _Metadata(_State):
     def take(self, number: int, line: str) -> _State:
         if line == "META_STOP":
             self.message.complete(self.segment.metadata, f"line {number}, metadata")
-            return _Before(self.message)
+            return _Before(self.message) if self.message.kind.marked else _Ephemeris(self.message)
         if _is_comment(line):
             self.segment.comments.append(line[len("COMMENT") :].strip())
         else:
@@ -91,21 +91,56 @@ class _Data(_State):
     named = "the data"
 
     def take(self, number: int, line: str) -> _State:
-        segment = self.message.segments[-1]
         if line == "DATA_STOP":
-            return _After(self.message)
+            return _After(self.message, line)
+        self.record(number, line)
+        return self
+
+    def record(self, number: int, line: str) -> None:
+        """Add a record or a comment to the segment."""
+        segment = self.message.segments[-1]
         if _is_comment(line):
             segment.comments.append(line[len("COMMENT") :].strip())
         else:
             epoch, *values = line.split()
             segment.records.append(Record(f"line {number}", epoch, values))
+
+
+class _Ephemeris(_Data):
+    """The data of an OEM. The next segment, covariances or the end may follow each record."""
+
+    def take(self, number: int, line: str) -> _State:
+        if line == "META_START":
+            return _Metadata(self.message, number)
+        if line == "COVARIANCE_START":
+            self.message.segments[-1].covariances.append(f"line {number}")
+            return _Covariances(self.message)
+        self.record(number, line)
         return self
+
+    def end(self, number: int) -> None:
+        pass
+
+
+class _Covariances(_State):
+    named = "the covariances"
+
+    def take(self, number: int, line: str) -> _State:
+        if line in ("META_START", "COVARIANCE_START"):
+            raise ValueError(f"line {number}: COVARIANCE_STOP must precede {line}")
+        return _After(self.message, line) if line == "COVARIANCE_STOP" else self
 
 
 class _After(_State):
+    """After the line `last` of a segment."""
+
+    def __init__(self, message: RawMessage, last: str):
+        super().__init__(message)
+        self.last = last
+
     def take(self, number: int, line: str) -> _State:
         if line != "META_START":
-            raise ValueError(f"line {number}: META_START or the end must follow DATA_STOP: got {line[:40]!r}")
+            raise ValueError(f"line {number}: META_START or the end must follow {self.last}: got {line[:40]!r}")
         return _Metadata(self.message, number)
 
     def end(self, number: int) -> None:

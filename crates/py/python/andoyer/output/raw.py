@@ -1,6 +1,9 @@
-"""The contents of an AEM as texts, the same for both notations, with the keywords of each version."""
+"""The contents of an attitude or orbit ephemeris message (AEM, OEM) as texts, the same for both notations, with the keywords of each version."""
 
 from dataclasses import dataclass, field
+from typing import TypeAlias
+
+Keywords: TypeAlias = dict[str, bool]
 
 HEADER = {"CREATION_DATE": True, "ORIGINATOR": True}
 METADATA = {
@@ -27,6 +30,52 @@ METADATA_OF = {
     "2.0": METADATA | {"ANGVEL_FRAME": False},
 }
 
+METADATA_OF_ORBIT = {
+    "OBJECT_NAME": True,
+    "OBJECT_ID": True,
+    "CENTER_NAME": True,
+    "REF_FRAME": True,
+    "TIME_SYSTEM": True,
+    "START_TIME": True,
+    "USEABLE_START_TIME": False,
+    "USEABLE_STOP_TIME": False,
+    "STOP_TIME": True,
+    "INTERPOLATION": False,
+    "INTERPOLATION_DEGREE": False,
+}
+"""Keywords of all versions of an OEM, and whether they must be given (502.0-B-3, tables 5-2 and 5-3)."""
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What differs between the messages: names, keywords by version, the form of the data."""
+
+    name: str
+    header: dict[str, Keywords]
+    metadata: dict[str, Keywords]
+    state: str
+    """The XML element of a record."""
+    marked: bool
+    """Data stand between DATA_START and DATA_STOP, and in XML in an element within `state`; otherwise they follow META_STOP, and covariances may follow them."""
+    units: dict[str, str] = field(default_factory=dict)
+    """The unit of each value in XML, where one may be stated."""
+
+    @property
+    def keyword(self) -> str:
+        """The first keyword, that of the version."""
+        return f"CCSDS_{self.name}_VERS"
+
+
+AEM = Kind("AEM", HEADER_OF, METADATA_OF, "attitudeState", True)
+OEM = Kind(
+    "OEM",
+    {"1.0": HEADER, "2.0": HEADER, "3.0": HEADER_OF["2.0"]},
+    {"1.0": METADATA_OF_ORBIT} | dict.fromkeys(("2.0", "3.0"), METADATA_OF_ORBIT | {"REF_FRAME_EPOCH": False}),
+    "stateVector",
+    False,
+    {name + dots: unit for dots, unit in {"": "km", "_DOT": "km/s", "_DDOT": "km/s**2"}.items() for name in "XYZ"},
+)
+
 
 @dataclass
 class Record:
@@ -39,18 +88,20 @@ class Record:
 
 @dataclass
 class RawSegment:
-    """A segment: its start, metadata, comments and records."""
+    """A segment: its start, metadata, comments, records, and where its covariances are."""
 
     where: str
     metadata: dict[str, str] = field(default_factory=dict)
     comments: list[str] = field(default_factory=list)
     records: list[Record] = field(default_factory=list)
+    covariances: list[str] = field(default_factory=list)
 
 
 @dataclass
 class RawMessage:
-    """A message: version, header, segments."""
+    """A message: its kind, version, header, segments."""
 
+    kind: Kind
     version: str
     header: dict[str, str] = field(default_factory=dict)
     segments: list[RawSegment] = field(default_factory=list)
@@ -63,12 +114,12 @@ class RawMessage:
         ValueError
             The keyword is unknown, repeated or without a value.
         """
-        known = HEADER_OF if given is self.header else METADATA_OF
+        known = self._known(given)
         if key not in known[self.version]:
             others = [version for version, keys in known.items() if key in keys]
             raise ValueError(
                 f"{where}: {key} is no keyword of {'the header' if given is self.header else 'the metadata'} in version {self.version}"
-                + "".join(f" (it is in {version})" for version in others)
+                + (f" (it is in {', '.join(others)})" if others else "")
             )
         if key in given:
             raise ValueError(f"{where}: {key} is given twice")
@@ -84,20 +135,24 @@ class RawMessage:
         ValueError
             A mandatory keyword is missing.
         """
-        known = HEADER_OF if given is self.header else METADATA_OF
+        known = self._known(given)
         missing = [key for key, needed in known[self.version].items() if needed and key not in given]
         if missing:
             raise ValueError(f"{where}: {', '.join(missing)} must be given")
 
+    def _known(self, given: dict[str, str]) -> dict[str, Keywords]:
+        return self.kind.header if given is self.header else self.kind.metadata
 
-def version_of(text: str, where: str) -> str:
-    """The version of a message, 1.0 or 2.0.
+
+def message_of(kind: Kind, version: str, where: str) -> RawMessage:
+    """A message of that version without contents.
 
     Raises
     ------
     ValueError
         Another version.
     """
-    if text not in HEADER_OF:
-        raise ValueError(f"{where}: CCSDS_AEM_VERS must be 1.0 or 2.0: got {text!r}")
-    return text
+    if version not in kind.header:
+        *others, last = kind.header
+        raise ValueError(f"{where}: {kind.keyword} must be {', '.join(others)} or {last}: got {version!r}")
+    return RawMessage(kind, version)

@@ -1,13 +1,13 @@
-"""Parser of the XML notation of an AEM (504.0-B-2, section 7), by the standard library, without entities and document types.
+"""Parser of the XML notation of an AEM (504.0-B-2, section 7) and of an OEM (502.0-B-3, section 8), by the standard library, without entities and document types.
 
-It reads documents of both versions, and the AEMs in combined documents (`ndm`).
+It reads documents of all versions, and the messages of one kind in combined documents (`ndm`).
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
-from andoyer.output.raw import RawMessage, RawSegment, Record, version_of
+from andoyer.output.raw import Kind, RawMessage, RawSegment, Record, message_of
 
 DEEPEST = 12
 """A message has its numbers eight elements deep; a document that goes deeper than this is none."""
@@ -46,19 +46,20 @@ class Element:
         return found[0]
 
 
-def parse_xml(data: bytes) -> list[RawMessage]:
-    """The messages in a document.
+def parse_xml(data: bytes, kind: Kind) -> list[RawMessage]:
+    """The messages of that kind in a document.
 
     Raises
     ------
     ValueError
-        A text that is not XML; a document type, which may define entities; elements that an AEM does not have.
+        A text that is not XML; a document type, which may define entities; elements that the message does not have.
     """
     root = _tree(data)
-    messages = [root] if root.name == "aem" else root.all("aem") if root.name == "ndm" else []
+    name = kind.name.lower()
+    messages = [root] if root.name == name else root.all(name) if root.name == "ndm" else []
     if not messages:
-        raise ValueError(f"{root.where}: the document must be an aem, or an ndm with one in it: got {root.name}")
-    return [_message(element) for element in messages]
+        raise ValueError(f"{root.where}: the document must be an {name}, or an ndm with one in it: got {root.name}")
+    return [_message(element, kind) for element in messages]
 
 
 def _tree(data: bytes) -> Element:
@@ -97,10 +98,10 @@ def _tree(data: bytes) -> Element:
     return top.children[0]
 
 
-def _message(element: Element) -> RawMessage:
-    if element.attributes.get("id") != "CCSDS_AEM_VERS":
-        raise ValueError(f'{element.where}: aem must have the attribute id="CCSDS_AEM_VERS"')
-    message = RawMessage(version_of(element.attributes.get("version", ""), element.where))
+def _message(element: Element, kind: Kind) -> RawMessage:
+    if element.attributes.get("id") != kind.keyword:
+        raise ValueError(f'{element.where}: {element.name} must have the attribute id="{kind.keyword}"')
+    message = message_of(kind, element.attributes.get("version", ""), element.where)
     header = element.only("header")
     for child in header.children:
         if child.name != "COMMENT":
@@ -123,33 +124,43 @@ def _segment(message: RawMessage, element: Element) -> None:
     for child in element.only("data").children:
         if child.name == "COMMENT":
             segment.comments.append(_value(child))
-        elif child.name == "attitudeState" and len(child.children) == 1:
-            segment.records.append(_record(child.children[0]))
+        elif child.name == "covarianceMatrix" and not message.kind.marked:
+            segment.covariances.append(child.where)
         else:
-            raise ValueError(f"{child.where}: data must have elements attitudeState with one element in each: got {child.name}")
+            segment.records.append(_record(_state(child, message.kind), message.kind))
     message.segments.append(segment)
 
 
-def _record(state: Element) -> Record:
+def _state(child: Element, kind: Kind) -> Element:
+    """The element with the values of a record."""
+    if child.name == kind.state and (len(child.children) == 1 or not kind.marked):
+        return child.children[0] if kind.marked else child
+    raise ValueError(f"{child.where}: data must have elements {kind.state}{' with one element in each' if kind.marked else ''}: got {child.name}")
+
+
+def _record(state: Element, kind: Kind) -> Record:
     values: dict[str, str] = {}
-    for name, value, where in _leaves(state, ""):
+    for name, leaf in _leaves(state, ""):
         if name in values:
-            raise ValueError(f"{where}: {name} is given twice")
-        values[name] = value
+            raise ValueError(f"{leaf.where}: {name} is given twice")
+        values[name] = _value(leaf)
+        unit = leaf.attributes.get("units", "")
+        if unit and unit.lower() != kind.units.get(name, unit.lower()):
+            raise ValueError(f"{leaf.where}: {name} must be in {kind.units[name]}: got {unit}")
     if "EPOCH" not in values:
         raise ValueError(f"{state.where}: {state.name} must have an EPOCH")
     return Record(state.where, values.pop("EPOCH"), values)
 
 
-def _leaves(element: Element, group: str) -> Iterator[tuple[str, str, str]]:
-    """Name, value and place of the elements without children; those of version 1 by the names of version 2."""
+def _leaves(element: Element, group: str) -> Iterator[tuple[str, Element]]:
+    """Name and element of those without children; those of version 1 of an AEM by the names of version 2."""
     for child in element.children:
         if child.children:
             yield from _leaves(child, child.name)
         elif child.name in NAMES:
-            yield f"{'RATE' if group == 'rotationRates' else 'ANGLE'}_{NAMES[child.name]}", _value(child), child.where
+            yield f"{'RATE' if group == 'rotationRates' else 'ANGLE'}_{NAMES[child.name]}", child
         elif child.name != "COMMENT":
-            yield child.name, _value(child), child.where
+            yield child.name, child
 
 
 def _value(element: Element) -> str:
