@@ -192,7 +192,7 @@ class Orbit:
 class TabulatedOrbit:
     """A table of the position of a disturbing body relative to the rotating body. Only the integrated method uses it."""
 
-    def __new__(cls, times: ArrayLike | Any, positions: ArrayLike, gm: float) -> TabulatedOrbit: ...
+    def __new__(cls, times: ArrayLike | Any, positions: ArrayLike, gm: float, *, velocities: ArrayLike | None = None) -> TabulatedOrbit: ...
     @property
     def times(self) -> _Array:
         """The times, a read-only array of shape (n,)."""
@@ -200,13 +200,16 @@ class TabulatedOrbit:
     def positions(self) -> _Array:
         """The positions, a read-only array of shape (n, 3)."""
     @property
+    def velocities(self) -> _Array | None:
+        """The velocities, a read-only array of shape (n, 3), or None."""
+    @property
     def gm(self) -> float:
         """G × mass of the disturbing body."""
     def position(self, time: float) -> _Array:
         """The position at a time within the table: an array of shape (3,)."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __getnewargs__(self) -> tuple[Any, ...]: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
     def __copy__(self) -> TabulatedOrbit: ...
     def __deepcopy__(self, _memo: Any) -> TabulatedOrbit: ...
 
@@ -336,6 +339,19 @@ class Scene:
     @classmethod
     def from_andoyer(cls, body: Body, andoyer: ArrayLike, *, epoch: Any = None, **options: Any) -> Scene:
         """The scene with given Andoyer variables at the epoch (theory §1). It is the inverse of `Motion.andoyer`."""
+    @classmethod
+    def locked(
+        cls,
+        body: Body,
+        orbit: Orbit,
+        *,
+        resonance: float | Fraction = 1,
+        amplitudes: ArrayLike = (0.0, 0.0, 0.0),
+        phases: ArrayLike = (0.0, 0.0, 0.0),
+        epoch: Any = 0.0,
+        **options: Any,
+    ) -> Scene:
+        """The scene of a body that is locked to an orbit: relaxed, or with free librations (docs: locked rotation)."""
     @classmethod
     def from_orbital(
         cls,
@@ -591,8 +607,18 @@ class LibrationTerm:
 
 @final
 class Samples:
-    """Attitudes and angular velocities of a motion or an ensemble at given times, from `Motion.at` or `Ensemble.at`."""
+    """Attitudes and angular velocities of a motion or an ensemble at given times, from `Motion.at` or `Ensemble.at`; those of any other origin come from `Samples.from_arrays`."""
 
+    @staticmethod
+    def from_arrays(
+        times: ArrayLike | Any,
+        attitudes: ArrayLike | Any,
+        angular_velocity: ArrayLike | Any | None = None,
+        *,
+        epoch: Any = None,
+        scalar_first: bool = False,
+    ) -> Samples:
+        """Samples from arrays of any origin: a star tracker, another propagator. They go where the samples of a motion go: tables, CK, AEM, pictures, `fit.attitudes`."""
     @property
     def times(self) -> Any:
         """The times, float64, shape (n,), or (m, n) for an ensemble whose members have their own times. Times of astropy are returned as given."""

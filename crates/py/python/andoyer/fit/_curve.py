@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from andoyer._core import Ensemble
-from andoyer._quaternions import Array
+from andoyer._quaternions import Array, product
+from andoyer.fit._rotations import exponential
 from andoyer.fit._scattering import with_derivatives
 from andoyer.fit._steps import logarithms_by_shape, moments_of_ellipsoid
 
@@ -64,6 +65,24 @@ class Curve:
     scattering: str
     shape: bool
     """Whether the axis ratios are free."""
+    spin: int | None = None
+    """The body axis of a simple rotation, about which alone the body turns; None for any motion."""
+
+    @property
+    def columns(self) -> list[int]:
+        """The free components of a step: of the attitude, the angular velocity and the shape."""
+        rates = [3, 4, 5] if self.spin is None else [3 + self.spin]
+        return [0, 1, 2, *rates, *([6, 7] if self.shape else [])]
+
+    def moved(self, states: States, steps: Array) -> States:
+        """The states after a step each."""
+        full = np.zeros((len(steps), 8))
+        full[:, self.columns] = steps
+        rates = states.rates + full[:, 3:6] * np.linalg.norm(states.rates, axis=1, keepdims=True)
+        axes = states.axes.copy()
+        axes[:, 1:] *= np.exp(full[:, 6:])
+        attitudes = product(states.attitudes, exponential(full[:, :3]))
+        return States(axes, attitudes / np.linalg.norm(attitudes, axis=1, keepdims=True), rates)
 
     def in_chunks(self, states: States, task: Callable[[States], T]) -> list[T]:
         """Apply `task` to parts of the states, on one thread for each core; the list of results."""
@@ -101,6 +120,20 @@ class Curve:
 
     def residuals(self, states: States) -> tuple[Array, Array]:
         """Residuals over σ, shape (m, n), and the derivatives of the model over σ, shape (m, k, n), with respect to steps."""
+        value, by_step, factors = self._model(states)
+        along = self._along(value, by_step) @ self.members.T
+        spread = (factors @ self.members.T) * np.sqrt(self.weights)
+        jacobian = (by_step - along * value[:, None]) * spread[:, None]
+        return self.brightness * np.sqrt(self.weights) - spread * value, jacobian
+
+    def model(self, state: States) -> tuple[Array, Array, Array, Array]:
+        """Of one state the brightness without a factor, shape (n,), the factors, shape (c,), their derivatives by a step, shape (k, c), and their variances at a fixed state."""
+        value, by_step, factors = self._model(state)
+        slopes = -self._along(value, by_step) * factors[:, None]
+        return value[0], factors[0], slopes[0], 1 / ((self.weights * value[0] * value[0]) @ self.members)
+
+    def _model(self, states: States) -> tuple[Array, Array, Array]:
+        """Brightnesses, their derivatives by a step, shape (m, k, n), and the factors of the curves."""
         ensemble = self._ensemble(states)
         found = with_derivatives(*self._seen(states, ensemble.attitude(self.times)), self.scattering, shape=self.shape)
         by_state = np.einsum("imn,mnij->mjn", found.by_turn, ensemble.partials(self.times).attitude)
@@ -110,12 +143,13 @@ class Curve:
             by_logarithm = by_state[:, 6:] * moments_of_ellipsoid(states.axes)[:, :, None]
             by_shape = np.swapaxes(logarithms_by_shape(states.axes), 1, 2) @ by_logarithm + np.moveaxis(found.by_shape, 0, 1)
             by_step = np.concatenate([by_step, by_shape], axis=1)
-        value, weighted = found.value, self.weights * found.value
-        factors, squares = self.factors(value), (weighted * value) @ self.members
-        along = ((by_step * weighted[:, None]) @ self.members / squares[:, None]) @ self.members.T
-        spread = (factors @ self.members.T) * np.sqrt(self.weights)
-        jacobian = (by_step - along * value[:, None]) * spread[:, None]
-        return self.brightness * np.sqrt(self.weights) - spread * value, jacobian
+        return found.value, by_step[:, self.columns], self.factors(found.value)
+
+    def _along(self, value: Array, by_step: Array) -> Array:
+        """Derivatives of the logarithms of the brightnesses, in the mean over each curve, shape (m, k, c)."""
+        weighted = self.weights * value
+        along: Array = ((by_step * weighted[:, None]) @ self.members) / ((weighted * value) @ self.members)[:, None]
+        return along
 
     def _ensemble(self, states: States) -> Ensemble:
         span = (self.times.min(), self.times.max())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,20 +14,26 @@ from andoyer._extra import extra
 from andoyer._quaternions import Array, angle_between, product
 from andoyer._refusal import refusal
 from andoyer.fit._curve import Curve, States
-from andoyer.fit._given import enough, from_first, generator_of, moderate, scene_of, shaped, span, whole_number
+from andoyer.fit._given import enough, from_epoch, from_first, generator_of, scene_of, shaped, span, whole_number
+from andoyer.fit._magnitudes import POGSON, Photometry, ZeroPoints, emitted
+from andoyer.fit._magnitudes import photometry as photometry_of
 from andoyer.fit._message import composed, largest_reduced, rivals
 from andoyer.fit._optimum import Optimum
 from andoyer.fit._result import Fit, judged
 from andoyer.fit._rotations import right_jacobian
 from andoyer.fit._scattering import axes_of, law, unit_vectors
-from andoyer.fit._search import Population, best, improve, moved, random_states, reflections, search
-from andoyer.fit._steps import LABELS, Steps, moments_of_ellipsoid
-from andoyer.interop._foreign import epoch_of
+from andoyer.fit._search import Population, at_other_rates, best, improve, random_spins, random_states, reflections, search
+from andoyer.fit._steps import Steps, moments_of_ellipsoid
+from andoyer.fit._verdict import REACHED, Evidence, judge, simple_rotation
+from andoyer.interop._foreign import as_one, epoch_of, has_units
 
 POLISHED = 32
 """States that are improved to the end, of either mode half."""
 SETTLING = 60
 """Steps of them all before each is polished alone."""
+FEW = 2000
+"""Least number of starts of the hypothesis of simple rotation."""
+PRINCIPAL = "principal-axis"
 SAME = 0.02
 """Largest angle [rad], at three times of the data, between attitudes of one optimum."""
 
@@ -35,18 +41,22 @@ SAME = 0.02
 def light_curve(
     axes: ArrayLike,
     times: Any,
-    brightness: ArrayLike,
+    brightness: ArrayLike | None = None,
     *,
+    magnitudes: ArrayLike | None = None,
     sun: ArrayLike,
     observer: ArrayLike,
     sigma: ArrayLike,
     periods: Any = None,
     curves: ArrayLike | None = None,
+    distances: ArrayLike | None = None,
     scattering: str = "lommel-seeliger",
     shape: bool = False,
+    mode: str | None = None,
     scene: Scene | None = None,
     starts: int = 100_000,
     delta_chi_square: float = np.inf,
+    scale_errors: bool = False,
     rng: Any = 0,
 ) -> Fit:
     """Fits the state of a homogeneous ellipsoid to its brightnesses, from many random starts.
@@ -63,40 +73,49 @@ def light_curve(
     times : array_like, shape (n,)
         Times, in the unit of `periods`; for a Time, a TimeDelta or a Quantity of astropy the unit is the second. The first time is the epoch of the fitted scene. A TimeDelta counts from the
         epoch of `scene`, or from 0 without it; the first one must be 0.
-    brightness : array_like, shape (n,)
-        Brightnesses as intensities, each in the unit of its curve; magnitudes m are converted by ``10**(-0.4*m)``.
+    brightness : array_like, shape (n,), optional
+        Brightnesses as intensities, each in the unit of its curve; or instead
+    magnitudes : array_like, shape (n,), optional
+        Magnitudes, each with the zero point of its curve, which comes back in `Fit.zero_points`.
     sun, observer : array_like, shape (3,) or (n, 3)
         Directions from the body to the Sun and the observer, inertial components.
     sigma : float or array_like, shape (n,)
-        Standard deviations of the brightnesses.
+        Standard deviations of the brightnesses, or of the magnitudes.
     periods : (float, float)
-        The shortest and the longest mean precession period P_φ of the starts, in the convention "extremal-axis" of `Motion.periods`; also a Quantity of astropy. Not needed with
-        `scene`.
+        The shortest and the longest mean precession period P_φ of the starts, in the convention "extremal-axis" of `Motion.periods`; also a Quantity of astropy. With
+        ``mode="principal-axis"`` of the period of rotation. Not needed with `scene`.
     curves : array_like of int, shape (n,), optional
-        Number of the curve of each point, 0, 1, …; by default all points belong to one curve.
+        Number of the curve of each point, 0, 1, …; by default all points belong to one curve. Absolute magnitudes of several nights are one curve; relative ones are a curve for each night.
+    distances : array_like, shape () or (n,), optional
+        Distances of the observer from the body: numbers in au, or a Quantity of astropy. The light time is then taken from `times`, which must be a Time or a Quantity.
     scattering : {"lommel-seeliger", "geometric"}, optional
         Law of scattering, as for `brightness`.
     shape : bool, optional
         If True, the axis ratios b/a and c/a are fitted too.
+    mode : {None, "principal-axis"}, optional
+        "principal-axis" holds the body in rotation about its axis of greatest inertia: period, pole and phase are fitted. By default any motion is fitted, and simple rotation too, as a
+        hypothesis beside it: `Fit.simple_rotation`.
     scene : Scene, optional
         A torque-free first state that rotates, instead of random states; its moments are replaced by those of the ellipsoid. The fit finds the minimum next to it, and no rival minima.
     starts : int, optional
         Number of random starts.
     delta_chi_square : float, optional
         Largest difference of χ² from the least χ² in `Fit.optima`, 0 or more; by default all minima are listed.
+    scale_errors : bool, optional
+        If True, a reduced χ² above 1 multiplies the covariance: the errors of the data are then taken as too small by one factor.
     rng : int or numpy.random.Generator, optional
         A seed or a generator of the starts.
 
     Returns
     -------
     Fit
-        The fit; `Fit.optima` has the mode and χ² of every minimum, the best first.
+        The fit; `Fit.optima` has the mode and χ² of every minimum, the best first, and `Fit.verdict` says what the data determine.
 
     Raises
     ------
     InputError
         Fewer points than parameters; a semi-axis, a brightness or a `sigma` that is not from 1e-40 to 1e40; no start with a motion over the times; a shortest period above the longest; a direction of length 0; Sun and observer on opposite sides; a first
-        TimeDelta other than 0; a `scene` with an orbit or at rest.
+        TimeDelta other than 0; a `scene` with an orbit or at rest; both brightness and magnitudes, or neither; distances with times that have no unit; another mode.
 
     Warns
     -----
@@ -121,51 +140,95 @@ def light_curve(
     extra("scipy.optimize", "andoyer.fit")
     semi_axes = axes_of(axes)
     law(scattering)
-    if not isinstance(shape, (bool, np.bool_)):
-        raise refusal("shape", repr(shape), "True or False", f"= {shape!r}: it must be True or False")
+    for argument, value in (("shape", shape), ("scale_errors", scale_errors)):
+        if not isinstance(value, (bool, np.bool_)):
+            raise refusal(argument, repr(value), "True or False", f"= {value!r}: it must be True or False")
+    if mode not in (None, PRINCIPAL):
+        raise refusal("mode", mode, PRINCIPAL, f"= {mode!r}: it must be None or {PRINCIPAL!r}")
     largest = _difference(delta_chi_square)
-    curve, epoch = _curve((times, scene), brightness, (sun, observer), sigma, curves, (scattering, shape))
-    enough(len(curve.times), 6 + 2 * shape + curve.members.shape[1], "times", "give more points")
-    if epoch is None:
-        epoch = 0.0 if scene is None else epoch_of(scene_of(scene))
+    data = _data((times, scene), (brightness, magnitudes, sigma), (sun, observer), curves, distances)
+    curve = replace(data.curve, scattering=scattering, shape=bool(shape), spin=int(np.argmax(moments_of_ellipsoid(semi_axes))) if mode else None)
+    enough(len(curve.times), len(curve.columns) + curve.members.shape[1], "times", "give more points")
+    if data.epoch is None:
+        data = replace(data, epoch=0.0 if scene is None else epoch_of(scene_of(scene)))
+    data = replace(data, curve=curve)
     # A start that runs to a shape without a body has an infinite χ², and the search passes it over.
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         if scene is not None:
-            first = _state_of(scene_of(scene), semi_axes, epoch)
-            population = improve(curve, Population(first, curve.chi_squares(first)), SETTLING)
-        else:
-            drawn = random_states(semi_axes, _range(periods), whole_number("starts", starts, 1), generator_of(rng))
-            population = search(curve, drawn)
-            population = improve(curve, best(_distinct(curve, population), POLISHED), SETTLING)
-        population = _polished(curve, population)
-        if scene is None:
-            population = _with_reflections(curve, population)
-    return _result(curve, population, epoch, times, largest)
+            first = _state_of(scene_of(scene), semi_axes, data.epoch)
+            if curve.spin is not None:
+                first = first._replace(rates=np.where(np.arange(3) == curve.spin, np.linalg.norm(first.rates), 0.0)[None])
+            found = Found(_polished(curve, improve(curve, Population(first, curve.chi_squares(first)), SETTLING)), REACHED)
+            return _result(data, found, None, largest, scale_errors)
+        count, generator = whole_number("starts", starts, 1), generator_of(rng)
+        limits = _range(periods)
+        if curve.spin is not None:
+            return _result(data, _simple(curve, semi_axes, limits, count, generator), None, largest, scale_errors)
+        found = _searched(curve, random_states(semi_axes, limits, count, generator))
+        # The spin of a body that hardly wobbles is slower than its precession: by A/C at most.
+        moments = np.sort(moments_of_ellipsoid(semi_axes))
+        simple = replace(curve, spin=int(np.argmax(moments_of_ellipsoid(semi_axes))))
+        rotation = _simple(simple, semi_axes, (limits[0], limits[1] * moments[2] / moments[0]), max(FEW, count // 5), generator)
+    return _result(data, found, (replace(data, curve=simple), rotation), largest, scale_errors)
 
 
-def _curve(
+@dataclass(frozen=True, eq=False)
+class Data:
+    """The data of a fit, and what leads back to them as they were given."""
+
+    curve: Curve
+    photometry: Photometry
+    epoch: Any
+    """A number, a Time for times of astropy, or None for durations, which count from the epoch of the scene."""
+    times: Any
+    labels: Array
+    light: Array | None
+    """Light times [s]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Minima, the best first, and how many starts led to the best."""
+
+    population: Population
+    reached: int
+
+
+def _searched(curve: Curve, drawn: States) -> Found:
+    """The minima to which random starts lead, with their reflections and their aliases by the gaps of the data."""
+    population = search(curve, drawn)
+    ended = population.chi_squares
+    population = improve(curve, best(_distinct(curve, population), POLISHED), SETTLING)
+    population = _with_others(curve, _polished(curve, population))
+    least = float(population.chi_squares[0])
+    return Found(population, int(np.sum(ended <= least * (1 + 1e-3) + 1.0)))
+
+
+def _simple(curve: Curve, axes: Array, periods: tuple[float, float], count: int, generator: np.random.Generator) -> Found:
+    """Simple rotations from random starts."""
+    assert curve.spin is not None
+    return _searched(curve, random_spins(axes, curve.spin, periods, count, generator))
+
+
+def _data(
     dates: tuple[Any, Scene | None],
-    brightness: ArrayLike,
+    measured: tuple[Any, Any, ArrayLike],
     seen: tuple[ArrayLike, ArrayLike],
-    sigma: ArrayLike,
     curves: ArrayLike | None,
-    model: tuple[str, bool],
-) -> tuple[Curve, Any]:
-    """The data, and the epoch: a number, a Time for times of astropy, or None for durations, which count from the epoch of the scene."""
+    distances: ArrayLike | None,
+) -> Data:
     at, epoch = from_first("times", *dates)
-    count = len(at)
-    values = shaped("brightness", brightness, (count,))
-    if not np.all(values > 0):
-        worst = float(values.min())
-        raise refusal("brightness", worst, "above 0", f"= {worst}: an intensity is above 0; for magnitudes m give the intensities 10**(-0.4*m)")
-    values = moderate("brightness", values, (count,))
-    deviations = np.broadcast_to(moderate("sigma", sigma, (), (count,)), (count,))
+    count, light = len(at), None
+    labels = np.zeros(count) if curves is None else shaped("curves", curves, (count,))
+    photometry = photometry_of(*measured, labels)
     for argument, vectors in zip(("sun", "observer"), seen):
         shaped(argument, vectors, (3,), (count, 3))
     sun, observer = (np.atleast_2d(vectors).T for vectors in unit_vectors(*seen))
-    labels = np.zeros(count) if curves is None else shaped("curves", curves, (count,))
+    if distances is not None:
+        at, epoch, light = emitted("times", dates[0], at, epoch, distances)
     members = (labels[:, None] == np.unique(labels)).astype(float)
-    return Curve(at, values, deviations**-2.0, sun, observer, members, *model), epoch
+    curve = Curve(at, photometry.brightness, photometry.sigma**-2.0, sun, observer, members, "lommel-seeliger", False)
+    return Data(curve, photometry, epoch, dates[0], labels, light)
 
 
 def _range(periods: Any) -> tuple[float, float]:
@@ -240,9 +303,13 @@ def _different(curve: Curve, population: Population) -> NDArray[np.intp]:
     return places
 
 
-def _with_reflections(curve: Curve, minima: Population) -> Population:
-    """Minima together with those to which their reflections lead, the best first."""
+def _with_others(curve: Curve, minima: Population) -> Population:
+    """Minima together with those to which their reflections lead, and the best at rates that the gaps of the data confuse with its own, the best first."""
     mirrored = reflections(curve, minima.states)
+    shifts = confused(curve)
+    if len(shifts):
+        shifted = at_other_rates(minima.states.part(slice(0, 4)), shifts)
+        mirrored = States(*(np.concatenate(arrays) for arrays in zip(mirrored, shifted)))
     found = improve(curve, Population(mirrored, curve.chi_squares(mirrored)), SETTLING)
     places = _different(curve, _joined(minima, found))[:POLISHED]
     new = places[places >= len(minima.chi_squares)] - len(minima.chi_squares)
@@ -265,11 +332,11 @@ def _polished(curve: Curve, population: Population) -> Population:
     found = []
     for place in range(len(population.chi_squares)):
         state = population.states.part(slice(place, place + 1))
-        first = np.zeros(6 + 2 * curve.shape)
+        first = np.zeros(len(curve.columns))
         if not np.all(np.isfinite(curve.residuals(state)[1])):
             continue
         solution = optimize.least_squares(_residuals, first, _jacobian, args=(curve, state), method="trf", xtol=1e-12, ftol=1e-12, gtol=1e-15)
-        found.append((moved(state, solution.x[None]), 2 * solution.cost))
+        found.append((curve.moved(state, solution.x[None]), 2 * solution.cost))
     if not found:
         last = float(curve.times[-1])
         raise refusal("times", last, "within the reach of a motion", f"[-1] is {last} after the first: no start has a motion and a finite χ² up to there")
@@ -278,7 +345,7 @@ def _polished(curve: Curve, population: Population) -> Population:
 
 
 def _residuals(step: Array, curve: Curve, state: States) -> Array:
-    residuals, _ = curve.residuals(moved(state, step[None]))
+    residuals, _ = curve.residuals(curve.moved(state, step[None]))
     finite: Array = np.nan_to_num(residuals[0], nan=np.inf)
     return finite
 
@@ -302,7 +369,7 @@ class Seen:
         return float(np.ptp(self.curve.times))
 
     def _moved(self, steps: Array) -> States:
-        return moved(States(*(np.repeat(array, len(steps), axis=0) for array in self.state)), steps)
+        return self.curve.moved(States(*(np.repeat(array, len(steps), axis=0) for array in self.state)), steps)
 
     def chi_squares(self, steps: Array) -> Array:
         """χ² of steps in rows."""
@@ -315,25 +382,151 @@ class Seen:
         residuals, slopes = (np.concatenate(arrays) for arrays in zip(*parts))
         jacobian = -np.swapaxes(slopes, 1, 2)
         jacobian[..., :3] = jacobian[..., :3] @ right_jacobian(steps[:, :3])
-        jacobian[..., 3:6] *= (np.linalg.norm(self.state.rates) / np.linalg.norm(there.rates, axis=1))[:, None, None]
+        jacobian[..., 3 : len(self.curve.columns) - 2 * self.curve.shape] *= (np.linalg.norm(self.state.rates) / np.linalg.norm(there.rates, axis=1))[:, None, None]
         return residuals, jacobian
 
 
-def _result(curve: Curve, population: Population, epoch: Any, times: Any, delta_chi_square: float) -> Fit:
-    minima = [_optimum(population.states.part(slice(place, place + 1)), float(chi_square), epoch) for place, chi_square in enumerate(population.chi_squares)]
+def _result(data: Data, found: Found, hypothesis: tuple[Data, Found] | None, delta_chi_square: float, scale_errors: bool) -> Fit:
+    """The fit of the best minimum, with all minima and the verdict."""
+    minima = _optima(data, found, scale_errors)
     best = minima[0]
-    optima = tuple(minimum for minimum in minima if minimum.chi_square <= best.chi_square + delta_chi_square)
-    state = population.states.part(slice(0, 1))
+    optima = tuple(minimum for minimum in minima if minimum.delta_chi_square <= delta_chi_square)
+    fit = _of_minimum(data, found.population.states.part(slice(0, 1)), best, scale_errors)
+    simple = _optima(*hypothesis, scale_errors)[0] if hypothesis is not None else None
+    curve = data.curve
+    constant = np.sum((curve.weights * curve.brightness) @ curve.members / (curve.weights @ curve.members) * ((curve.weights * curve.brightness) @ curve.members))
+    evidence = Evidence(
+        optima=minima,
+        residuals=fit.residuals_over_sigma,
+        curves=np.argmax(curve.members, axis=1),
+        degrees=fit.degrees_of_freedom,
+        duration=float(np.ptp(curve.times)),
+        reached=found.reached,
+        simple=simple,
+        constant=float(np.sum(curve.weights * curve.brightness**2) - constant),
+        unit=" s" if hasattr(data.epoch, "jd1") or has_units(as_one("times", data.times)) else "",
+    )
+    if data.photometry.zero is None:
+        _warn_of_magnitudes(curve.brightness, best.chi_square, fit.degrees_of_freedom)
+    message = composed(best.chi_square, fit.degrees_of_freedom, ADVICE, fit.lost, rivals(minima, evidence.duration))
+    return replace(fit, message=message, optima=optima, verdict=judge(evidence), simple_rotation=simple_rotation(evidence))
+
+
+def _optima(data: Data, found: Found, scale_errors: bool) -> list[Optimum]:
+    """The minima of a search as scenes."""
+    least = float(found.population.chi_squares[0])
+    optima = []
+    for place, chi_square in enumerate(found.population.chi_squares):
+        state = found.population.states.part(slice(place, place + 1))
+        body = Body(moments_of_ellipsoid(state.axes)[0])
+        scene = Scene(body, state.attitudes[0], state.rates[0], epoch=data.epoch)
+        mode = PRINCIPAL if data.curve.spin is not None else scene.solve().plan.mode
+
+        def made(state: States = state, chi_square: float = float(chi_square)) -> Fit:
+            alone = Found(Population(state, np.array([chi_square])), REACHED)
+            return _result(data, alone, None, np.inf, scale_errors)
+
+        optima.append(Optimum(scene, mode, float(chi_square), float(chi_square) - least, made))
+    return optima
+
+
+def _of_minimum(data: Data, state: States, best: Optimum, scale_errors: bool) -> Fit:
+    """The fit of one minimum, without what others say of it."""
+    curve = data.curve
     model = Seen(curve, state)
-    residuals, jacobian = (array[0] for array in model.derivatives(np.zeros((1, 6 + 2 * curve.shape))))
-    names = tuple(name for name in LABELS if name in ("attitude", "angular_velocity") or (name == "shape" and curve.shape))
-    steps = Steps(best.scene, names, state.axes[0])
+    residuals, jacobian = (array[0] for array in model.derivatives(np.zeros((1, len(curve.columns)))))
+    names = ("attitude", "angular_velocity" if curve.spin is None else "spin", *(("shape",) if curve.shape else ()))
+    steps = Steps(best.scene, names, state.axes[0], spin=curve.spin or 0)
     covariance, lost, sentence = judged(steps, np.zeros(jacobian.shape[1]), jacobian)
     degrees = len(curve.times) - curve.members.shape[1] - (jacobian.shape[1] - len(lost))
-    message = composed(best.chi_square, degrees, ADVICE, sentence, rivals(minima, model.duration))
-    _warn_of_magnitudes(curve.brightness, best.chi_square, degrees)
+    factor = max(1.0, best.chi_square / degrees) if scale_errors and degrees > 0 else 1.0
+    units = steps.units(np.zeros(jacobian.shape[1]))
+    zero_points = _zero_points(data, state, covariance / np.outer(units, units), factor)
     measured = residuals / np.sqrt(curve.weights)
-    return Fit(best.scene, steps.labels, covariance, lost, measured, best.chi_square, degrees, message, times, steps, model, optima, state.axes[0])
+    light = Light(data, model)
+    if data.photometry.zero is not None:
+        measured = data.photometry.as_given(curve.brightness) - data.photometry.as_given(curve.brightness - measured)
+    return Fit(
+        scene=best.scene,
+        parameters=steps.labels,
+        covariance=factor * covariance,
+        undetermined=lost,
+        residuals=measured,
+        chi_square=best.chi_square,
+        degrees_of_freedom=degrees,
+        message="",
+        times=data.times,
+        _steps=steps,
+        _model=model,
+        optima=(best,),
+        semi_axes=state.axes[0],
+        zero_points=zero_points,
+        lost=sentence,
+        residuals_over_sigma=residuals,
+        _light=light,
+    )
+
+
+def _zero_points(data: Data, state: States, covariance: Array, factor: float) -> ZeroPoints:
+    """Zero points with their errors, those of the state included: of ln s, variance at a fixed state plus its derivatives by the steps."""
+    _, factors, slopes, variances = data.curve.model(state)
+    relative = (variances + np.einsum("kc,kl,lc->c", slopes, covariance, slopes)) / factors**2
+    first = np.argmax(data.curve.members, axis=0)
+    magnitude = np.zeros(len(factors)) if data.photometry.zero is None else data.photometry.zero[first]
+    return ZeroPoints(data.labels[first], magnitude - POGSON * np.log(factors), POGSON * np.sqrt(factor * relative))
+
+
+@dataclass(frozen=True, eq=False)
+class Light:
+    """The model of the brightness at any times."""
+
+    data: Data
+    seen: Seen
+
+    def at(self, times: Any, sun: ArrayLike | None, observer: ArrayLike | None, label: Any) -> Array:
+        """Magnitudes or intensities as of the data, at their times (None) or at others."""
+        curve, state = self.data.curve, self.seen.state
+        value, factors, _, _ = curve.model(state)
+        if times is None:
+            return self.data.photometry.as_given((factors @ curve.members.T) * value)
+        at = np.atleast_1d(from_epoch("times", times, self.data.epoch, 0.0 if hasattr(self.data.epoch, "jd1") else float(self.data.epoch)))
+        if at.ndim != 1 or not np.isfinite(at).all():
+            raise refusal("times", at.shape, "(n,)", f"has shape {at.shape}: it must be finite times, shape (n,)")
+        order = np.argsort(curve.times, kind="stable")
+        inside = (at >= curve.times.min()) & (at <= curve.times.max())
+        sides = []
+        for argument, given, own in (("sun", sun, curve.sun), ("observer", observer, curve.observer)):
+            if given is not None:
+                vectors = np.broadcast_to(shaped(argument, given, (3,), (len(at), 3)), (len(at), 3))
+            elif own.shape[1] == 1:
+                vectors = np.broadcast_to(own.T, (len(at), 3))
+            elif not inside.all():
+                raise refusal(argument, None, "directions", "must be given for times outside the data")
+            else:
+                vectors = np.stack([np.interp(at, curve.times[order], axis[order]) for axis in own], axis=1)
+            sides.append(vectors)
+        labels = np.unique(self.data.labels)
+        places = np.flatnonzero(labels == label) if label is not None else np.array([0])
+        if len(places) != 1:
+            raise refusal("curve", label, labels.tolist(), f"= {label!r}: it must be one of {labels.tolist()}")
+        directions = [vectors.T for vectors in unit_vectors(*sides)]
+        light = replace(curve, times=at, brightness=np.ones(len(at)), weights=np.ones(len(at)), sun=directions[0], observer=directions[1], members=np.ones((len(at), 1)))
+        seen, _, _, _ = light.model(state)
+        zero = self.data.photometry.zero
+        given = Photometry(seen, seen, None if zero is None else np.full(len(at), zero[self.data.labels == labels[places[0]]][0]))
+        return given.as_given(factors[places[0]] * seen)
+
+
+def confused(curve: Curve) -> Array:
+    """Shifts of the frequency of rotation, which is half that of the brightness, that the gaps between nights confuse: ±½ and ±1 cycle a gap."""
+    times = np.sort(curve.times)
+    steps = np.diff(times)
+    long = steps > 10 * max(float(np.median(steps)), 0.0)
+    if not long.any():
+        return np.zeros(0)
+    starts = times[np.concatenate([[True], long])]
+    gap = float(np.min(np.diff(starts)))
+    return np.array([-1.0, -0.5, 0.5, 1.0]) / gap
 
 
 def _warn_of_magnitudes(brightness: Array, chi_square: float, degrees: int) -> None:
@@ -342,13 +535,6 @@ def _warn_of_magnitudes(brightness: Array, chi_square: float, degrees: int) -> N
     bad = degrees > 0 and chi_square / degrees > largest_reduced(degrees)
     if most <= FAINTEST and (bad or (degrees <= 0 and least >= BRIGHTEST)):
         warnings.warn(
-            f"the brightnesses lie between {least:.3g} and {most:.3g}{', and the fit is bad' if bad else ''}: if they are magnitudes m, give the intensities 10**(-0.4*m) "
-            "with the standard deviations 0.921*intensity*sigma",
+            f"the brightnesses lie between {least:.3g} and {most:.3g}{', and the fit is bad' if bad else ''}: if they are magnitudes, give them as magnitudes=",
             stacklevel=4,
         )
-
-
-def _optimum(state: States, chi_square: float, epoch: Any) -> Optimum:
-    body = Body(moments_of_ellipsoid(state.axes)[0])
-    scene = Scene(body, state.attitudes[0], state.rates[0], epoch=epoch)
-    return Optimum(scene, scene.solve().plan.mode, chi_square)

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from andoyer._core import Motion, Scene
+from andoyer._quaternions import Array
 from andoyer.mean import Periods
+
+if TYPE_CHECKING:
+    from andoyer.fit._result import Fit
 
 HALF_TURN = 0.5
 """Difference of two phases [turns] over the data from which two pairs of periods count as different: half the resolution of the data in frequency."""
@@ -20,16 +25,41 @@ class Optimum:
 
     scene: Scene
     mode: str
-    """The mode of its motion, such as "short-axis"."""
+    """The mode of its motion, such as "short-axis"; "principal-axis" for a simple rotation."""
     chi_square: float
     """χ² at the minimum."""
+    delta_chi_square: float
+    """χ² less that of the best minimum."""
+    _made: Callable[[], Any]
+
+    def fit(self) -> Fit:
+        """The fit of this minimum, with the standard deviations of its own."""
+        made: Fit = self._made()
+        return made
 
     @property
     def periods(self) -> Periods:
-        """The mean periods (P_φ, P_ψ) in the convention "extremal-axis" of `Motion.periods`."""
+        """The mean periods (P_φ, P_ψ) in the convention "extremal-axis" of `Motion.periods`; of a simple rotation its period and infinity."""
+        if self.mode == "principal-axis":
+            return Periods(float(2 * np.pi / np.linalg.norm(self.scene.angular_velocity)), np.inf)
         return free_motion(self.scene).periods["extremal-axis"]
 
+    @property
+    def direction(self) -> Array:
+        """The direction of the angular momentum, inertial components, shape (3,)."""
+        momentum = free_motion(self.scene).angular_momentum(0.0)
+        unit: Array = momentum / np.linalg.norm(momentum)
+        return unit
+
+    @property
+    def pole(self) -> Array:
+        """Longitude and latitude of the angular momentum [rad], shape (2,), as `momentum_direction` of `Scene.from_periods` takes them."""
+        x, y, z = self.direction
+        return np.array([np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))])
+
     def __repr__(self) -> str:
+        if self.mode == "principal-axis":
+            return f"Optimum({self.mode}, P={2 * np.pi / np.linalg.norm(self.scene.angular_velocity):.6g}, χ²={self.chi_square:.6g})"
         precession, rotation = self.periods
         return f"Optimum({self.mode}, P_φ={precession:.6g}, P_ψ={rotation:.6g}, χ²={self.chi_square:.6g})"
 
@@ -60,13 +90,13 @@ def aliases(optima: Sequence[Optimum], duration: float) -> list[Alias]:
     known: list[Periods] = [optima[0].periods] if optima else []
     for optimum in optima[1:]:
         periods = optimum.periods
-        if all(_turns(periods, other, duration) > HALF_TURN for other in known):
+        if all(turns(periods, other, duration) > HALF_TURN for other in known):
             known.append(periods)
             found.append(Alias(periods, optimum.chi_square - optima[0].chi_square, optimum.scene))
     return found
 
 
-def _turns(first: Periods, second: Periods, duration: float) -> float:
+def turns(first: Periods, second: Periods, duration: float) -> float:
     """The largest difference of the phases [turns] of two pairs of periods after a duration."""
     # A period that does not exist is infinite, and its frequency 0.
     return float(np.max(np.abs(1 / np.array(first) - 1 / np.array(second)))) * duration

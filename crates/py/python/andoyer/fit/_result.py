@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from andoyer._core import Ensemble, Scene
 from andoyer._quaternions import Array
@@ -14,10 +15,12 @@ from andoyer._refusal import refusal
 from andoyer.fit._degeneracy import sentence, undetermined
 from andoyer.fit._draws import Model, candidates
 from andoyer.fit._given import generator_of, whole_number
+from andoyer.fit._magnitudes import ZeroPoints
 from andoyer.fit._members import members
 from andoyer.fit._optimum import Alias, Optimum, aliases, free_motion
 from andoyer.fit._steps import Steps
 from andoyer.fit._summary import described
+from andoyer.fit._verdict import SimpleRotation, Verdict
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -68,7 +71,7 @@ class Fit:
     undetermined: Array
     """Directions that the data do not determine, shape (d, k), as unit vectors of relative changes (of angles: in rad)."""
     residuals: Array
-    """Measured minus model: rotation vectors about body axes, shape (n, 3), in rad; or brightnesses, shape (n,)."""
+    """Measured minus model: rotation vectors about body axes, shape (n, 3), in rad; or brightnesses or magnitudes as given, shape (n,)."""
     chi_square: float
     """Sum of the squared residuals over their variances."""
     degrees_of_freedom: int
@@ -83,6 +86,17 @@ class Fit:
     """All minima within Δχ² of the best, the best first; of `light_curve`."""
     semi_axes: Array | None = None
     """Semi-axes of the ellipsoid along principal axes 1, 2, 3; of `light_curve`."""
+    zero_points: ZeroPoints | None = None
+    """The zero point of each curve with its error; of `light_curve`."""
+    verdict: Verdict | None = None
+    """What the data determine: periods, pole and mode; of `light_curve`."""
+    simple_rotation: SimpleRotation | None = None
+    """The hypothesis of rotation about the axis of greatest inertia, fitted to the same data; of `light_curve` without a mode or a scene."""
+    lost: str | None = None
+    """The sentence on what the data do not determine."""
+    residuals_over_sigma: Array | None = None
+    """Residuals over their standard deviations; of `light_curve`, of the intensities."""
+    _light: Any = None
 
     @property
     def reduced_chi_square(self) -> float:
@@ -96,6 +110,35 @@ class Fit:
         Two pairs of periods count as different if one of their phases differs by more than half a turn over the data. A fit of attitudes, or one that began from a `scene`, has none.
         """
         return aliases(self.optima, self._model.duration)
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """The unit of each of `parameters`: "rad", "rad per unit of time", "unit of the moments" or "1"."""
+        kinds = {"θ": "rad", "ω": "rad per unit of time", "I": "unit of the moments"}
+        return tuple(kinds.get(name[0], "1") for name in self.parameters)
+
+    def model(self, times: Any = None, *, sun: ArrayLike | None = None, observer: ArrayLike | None = None, curve: Any = None) -> Array:
+        """What the best state would show: attitudes, shape (n, 4), or brightnesses or magnitudes as given, shape (n,).
+
+        Parameters
+        ----------
+        times : array_like, shape (n,), optional
+            By default those of the data. Of a light curve with `distances`, times at the body.
+        sun, observer : array_like, shape (3,) or (n, 3), optional
+            Directions as of `light_curve`. By default those of the data, between them interpolated; needed for times outside the data.
+        curve : int, optional
+            The curve whose zero point is used, by default the first.
+
+        Raises
+        ------
+        InputError
+            Times outside the data without directions; a curve that does not exist.
+        """
+        if self._light is not None:
+            brightness: Array = self._light.at(times, sun, observer, curve)
+            return brightness
+        attitudes: Array = self.scene.solve().attitude(self.times if times is None else times)
+        return attitudes
 
     def ensemble(self, n: int, rng: Any = None, *, threads: int | None = None) -> Ensemble:
         """Draws states by their χ², as an `Ensemble` about principal axes: the states of `draws`, where parameters and errors are listed.
@@ -182,6 +225,10 @@ class Fit:
         ]
         if len(self.optima) > 1:
             lines.append(("minima", f"{len(self.optima)}, the second with Δχ² {self.optima[1].chi_square - self.optima[0].chi_square:.3g}"))
+        if self.simple_rotation is not None:
+            lines.append(("simple rotation", f"P {self.simple_rotation.period:.6g}, Δχ² {self.simple_rotation.delta_chi_square:.4g}, by chance {self.simple_rotation.probability:.2g}"))
+        if self.verdict is not None:
+            lines.append(("verdict", str(self.verdict)))
         title = f"Fit of {len(self.parameters)} parameters ({', '.join(self.parameters)}) to {self.residuals.size} data"
         return "\n".join([title, *(f"  {name:<15} {text}" for name, text in lines), self.message])
 

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from andoyer._core import Ensemble
 from andoyer._quaternions import Array, product
 from andoyer.fit._curve import Curve, States
-from andoyer.fit._rotations import exponential
 from andoyer.fit._steps import moments_of_ellipsoid
 
 ROUNDS = ((0.1, 4), (0.25, 8), (0.2, 40))
@@ -46,6 +45,23 @@ def random_states(axes: Array, periods: tuple[float, float], count: int, generat
     unit = Ensemble(moments, attitudes, rates, tolerance=1e-6, span=(0.0, 1.0)).periods["extremal-axis"].precession
     frequencies = generator.uniform(1 / periods[1], 1 / periods[0], count)
     return States(np.broadcast_to(axes, (count, 3)).copy(), attitudes, rates * (unit * frequencies)[:, None])
+
+
+def random_spins(axes: Array, axis: int, periods: tuple[float, float], count: int, generator: np.random.Generator) -> States:
+    """Simple rotations about a body axis: any attitude, frequencies between those of the periods."""
+    attitudes = generator.standard_normal((count, 4))
+    rates = np.zeros((count, 3))
+    rates[:, axis] = 2 * np.pi * generator.uniform(1 / periods[1], 1 / periods[0], count)
+    return States(np.broadcast_to(axes, (count, 3)).copy(), attitudes / np.linalg.norm(attitudes, axis=1, keepdims=True), rates)
+
+
+def at_other_rates(states: States, shifts: Array) -> States:
+    """Each state with its rotation changed by each of some frequencies [cycles per unit of time], as far as they leave some of it."""
+    sizes = np.linalg.norm(states.rates, axis=1)
+    factors = 1 + 2 * np.pi * shifts[:, None] / sizes
+    repeated = States(*(np.concatenate([array] * len(shifts)) for array in states))
+    faster = States(repeated.axes, repeated.attitudes, repeated.rates * factors.reshape(-1, 1))
+    return faster.part(factors.ravel() > 0.05)
 
 
 def _momenta(moments: Array, count: int, generator: np.random.Generator) -> Array:
@@ -113,7 +129,7 @@ def improve(curve: Curve, population: Population, steps: int) -> Population:
     chi_squares = _finite(current.chi_square)
     damping = np.full(len(chi_squares), DAMPING)
     for _ in range(steps):
-        trial = moved(states, _step(current.gradient, current.matrix, damping))
+        trial = curve.moved(states, _step(current.gradient, current.matrix, damping))
         found = curve.normal_equations(trial)
         better = found.chi_square < chi_squares
         for kept, new in zip((*states, *current), (*trial, *found)):
@@ -121,15 +137,6 @@ def improve(curve: Curve, population: Population, steps: int) -> Population:
         chi_squares = np.where(better, found.chi_square, chi_squares)
         damping = np.clip(damping * np.where(better, FALL, RISE), 1e-9, 1e9)
     return Population(states, chi_squares)
-
-
-def moved(states: States, steps: Array) -> States:
-    """The states after a step each."""
-    rates = states.rates + steps[:, 3:6] * np.linalg.norm(states.rates, axis=1, keepdims=True)
-    axes = states.axes.copy()
-    axes[:, 1:] *= np.exp(steps[:, 6:]) if steps.shape[1] > 6 else 1.0
-    attitudes = product(states.attitudes, exponential(steps[:, :3]))
-    return States(axes, attitudes / np.linalg.norm(attitudes, axis=1, keepdims=True), rates)
 
 
 def _step(gradient: Array, matrix: Array, damping: Array) -> Array:

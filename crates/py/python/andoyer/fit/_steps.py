@@ -17,14 +17,16 @@ from andoyer.fit._rotations import exponential, right_jacobian
 LABELS = {
     "attitude": ("θ1", "θ2", "θ3"),
     "angular_velocity": ("ω1", "ω2", "ω3"),
+    "spin": ("ω",),
     "moments": ("I1", "I2", "I3"),
     "inertia": ("I11", "I22", "I33", "I12", "I13", "I23"),
     "shape": ("b/a", "c/a"),
 }
-"""Names of the components: a rotation vector, body rates, principal moments, elements of the inertia tensor, ratios of semi-axes."""
+"""Names of the components: a rotation vector, body rates or that about one axis, principal moments, elements of the inertia tensor, ratios of semi-axes."""
 WORDS = {
     "θ1": "the attitude about axis 1", "θ2": "the attitude about axis 2", "θ3": "the attitude about axis 3",
     "ω1": "the angular velocity about axis 1", "ω2": "the angular velocity about axis 2", "ω3": "the angular velocity about axis 3",
+    "ω": "the angular velocity",
     "I1": "the moment about axis 1", "I2": "the moment about axis 2", "I3": "the moment about axis 3",
     "I11": "the element I11", "I22": "the element I22", "I33": "the element I33", "I12": "the element I12", "I13": "the element I13", "I23": "the element I23",
     "b/a": "the axis ratio b/a", "c/a": "the axis ratio c/a",
@@ -45,6 +47,8 @@ class Steps:
     """Of a homogeneous ellipsoid, along principal axes 1, 2, 3; None where moments are parameters."""
     pace: float = 1.0
     """Rate that stands for that of a body at rest."""
+    spin: int = 2
+    """The body axis of a simple rotation, where "spin" is free."""
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -58,7 +62,7 @@ class Steps:
     @property
     def _places(self) -> list[int]:
         """Where the free components are among all."""
-        starts = {"attitude": 0, "angular_velocity": 3, self._body: FIXED_MOMENTS}
+        starts = {"attitude": 0, "angular_velocity": 3, "spin": 3 + self.spin, self._body: FIXED_MOMENTS}
         return [starts[name] + place for name in self.free for place in range(len(LABELS[name]))]
 
     @property

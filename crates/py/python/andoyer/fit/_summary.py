@@ -11,11 +11,11 @@ from andoyer.fit._steps import Steps, root
 
 DIFFERENCE = 1e-2
 """Steps of the differences, in standard deviations, or relative and in rad along what the data do not determine."""
-ANGLES = ("pole longitude", "pole latitude", "phase μ", "phase ν")
+ANGLES = ("pole longitude", "pole latitude", "phase μ", "phase ν", "phase μ + ν")
 
 
-def _quantities(scene: Scene, semi_axes: Array | None) -> dict[str, float]:
-    """What the summary lists."""
+def _quantities(scene: Scene, semi_axes: Array | None, simple: bool) -> dict[str, float]:
+    """What the summary lists; of a simple rotation one period and one phase."""
     motion = free_motion(scene)
     periods = motion.periods["extremal-axis"]
     x, y, z = (float(component) for component in motion.angular_momentum(0.0))
@@ -28,6 +28,9 @@ def _quantities(scene: Scene, semi_axes: Array | None) -> dict[str, float]:
         "phase μ": np.degrees(mu) % 360,
         "phase ν": np.degrees(nu) % 360,
     }
+    if simple:
+        del values["P_φ"], values["P_ψ"], values["phase μ"], values["phase ν"]
+        values = {"period": 2 * np.pi / float(np.linalg.norm(scene.angular_velocity)), **values, "phase μ + ν": np.degrees(mu + nu) % 360}
     values |= {f"moment I{place}": float(moment) for place, moment in enumerate(scene.body.moments, 1)}
     if semi_axes is not None:
         values |= {f"axis ratio {name}": float(axis / semi_axes[0]) for name, axis in zip(("b/a", "c/a"), semi_axes[1:])}
@@ -39,7 +42,7 @@ def described(steps: Steps, covariance: Array, undetermined: Array) -> list[tupl
 
     `undetermined`: the directions of steps that the data do not determine, shape (d, k).
     """
-    values = _quantities(steps.origin, steps.semi_axes)
+    values = _quantities(steps.origin, steps.semi_axes, "spin" in steps.free)
     deviations = _slopes(steps, root(covariance, steps), list(values))
     lost = _slopes(steps, undetermined.T, list(values))
     lines = []
@@ -86,7 +89,7 @@ def _slopes(steps: Steps, columns: Array, names: list[str]) -> dict[str, Array]:
 def _after(steps: Steps, step: Array) -> dict[str, float] | None:
     """The quantities after a step; None where it leads to no body."""
     try:
-        return _quantities(steps.scene(step), _axes(steps, step))
+        return _quantities(steps.scene(step), _axes(steps, step), "spin" in steps.free)
     except Error:
         return None
 

@@ -1,0 +1,188 @@
+"""`Verdict`: how far light curves determine periods, pole and mode, from the minima of χ² and the hypothesis of simple rotation.
+
+Differences of χ² are divided by a scale: the reduced χ² of the best fit if it is above 1, for what the model cannot show, times the correlation of neighbouring residuals, for what is
+counted several times. A rival is a minimum whose scaled Δχ² is below `NEAR`. The bounds are calibrated on simulated data sets (docs/data/verdicts.csv).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from andoyer._extra import extra
+from andoyer._quaternions import Array
+from andoyer.fit._optimum import HALF_TURN, Optimum, turns
+
+if TYPE_CHECKING:
+    from andoyer.fit._result import Fit
+
+SECURE, AMBIGUOUS, LOST = "secure", "ambiguous", "not determined"
+NEAR = 16.0
+"""Scaled Δχ² below which a minimum is a rival: four standard deviations of one parameter."""
+MANY = 6
+"""So many rival pairs of periods, or poles, determine none."""
+SEPARATE = np.radians(15.0)
+"""Angle [rad] between two poles that are not the same."""
+REACHED = 2
+"""Starts that must have led to the best minimum."""
+LONGEST = 10
+"""Largest correlation of residuals, in points."""
+CHANCE = 1e-3
+"""Probability of an improvement by chance above which a hypothesis with fewer parameters stands."""
+
+
+@dataclass(frozen=True, eq=False)
+class SimpleRotation:
+    """The hypothesis of rotation about the axis of greatest inertia, from the same data."""
+
+    optimum: Optimum
+    """Its best minimum."""
+    delta_chi_square: float
+    """Its χ² less that of the tumbling motion."""
+    probability: float
+    """Probability that two further parameters lower the scaled χ² so much by chance (F test)."""
+
+    @property
+    def period(self) -> float:
+        """The period of rotation."""
+        return float(2 * np.pi / np.linalg.norm(self.optimum.scene.angular_velocity))
+
+    def fit(self) -> Fit:
+        """The fit of this hypothesis."""
+        return self.optimum.fit()
+
+    def __repr__(self) -> str:
+        return f"SimpleRotation(P={self.period:.6g}, Δχ²={self.delta_chi_square:.4g}, probability {self.probability:.2g})"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What the data determine. `str` gives one sentence."""
+
+    periods: str
+    """"secure", "ambiguous" or "not determined": of the pair of periods, or the period of a simple rotation."""
+    pole: str
+    """The same of the direction of the angular momentum."""
+    mode: str
+    """The same of the mode: "short-axis", "long-axis" or "principal-axis"."""
+    sentence: str
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What a verdict is found from."""
+
+    optima: Sequence[Optimum]
+    """All minima, the best first."""
+    residuals: Array
+    """Over their standard deviations."""
+    curves: Array
+    """Of each point the number of its curve."""
+    degrees: int
+    """Degrees of freedom of the best fit."""
+    duration: float
+    reached: int
+    """Starts that led to the best minimum."""
+    simple: Optimum | None
+    """The best simple rotation, beside a tumbling motion."""
+    constant: float
+    """χ² of constant brightness in each curve."""
+    unit: str
+    """Of time: " s", or nothing."""
+
+
+def scale(evidence: Evidence) -> float:
+    """By what differences of χ² are divided."""
+    reduced = evidence.optima[0].chi_square / max(evidence.degrees, 1)
+    return max(1.0, reduced) * correlation(evidence.residuals, evidence.curves)
+
+
+def correlation(residuals: Array, curves: Array) -> float:
+    """1 + 2Σρ of residuals within curves, up to the first lag without correlation: the number of points that count as one."""
+    total = float(np.sum(residuals**2))
+    found = 1.0
+    for lag in range(1, LONGEST):
+        same = curves[lag:] == curves[:-lag]
+        rho = float(np.sum((residuals[lag:] * residuals[:-lag])[same])) / total if total > 0 else 0.0
+        if rho <= 2 / np.sqrt(max(len(residuals), 1)):
+            break
+        found += 2 * rho
+    return min(found, float(LONGEST))
+
+
+def simple_rotation(evidence: Evidence) -> SimpleRotation | None:
+    """The hypothesis of simple rotation beside the best motion."""
+    if evidence.simple is None:
+        return None
+    best = evidence.optima[0].chi_square
+    gain = max(evidence.simple.chi_square - best, 0.0)
+    return SimpleRotation(evidence.simple, evidence.simple.chi_square - best, _chance(gain / 2, best, evidence))
+
+
+def _chance(gain: float, best: float, evidence: Evidence) -> float:
+    """Of F = gain a parameter over χ² a degree of freedom, with as many independent points as the residuals have."""
+    tau = correlation(evidence.residuals, evidence.curves)
+    degrees = max(evidence.degrees / tau, 1.0)
+    return float(extra("scipy.special", "andoyer.fit").fdtrc(2, degrees, gain / tau / max(best / tau / degrees, 1e-300)))
+
+
+def judge(evidence: Evidence) -> Verdict:
+    """The verdict."""
+    best = evidence.optima[0]
+    by = scale(evidence)
+    near = [optimum for optimum in evidence.optima if (optimum.chi_square - best.chi_square) / by < NEAR]
+    pairs, poles = [best.periods], [best.direction]
+    for optimum in near[1:]:
+        if all(turns(optimum.periods, pair, evidence.duration) > HALF_TURN for pair in pairs):
+            pairs.append(optimum.periods)
+        if all(np.arccos(np.clip(optimum.direction @ pole, -1, 1)) > SEPARATE for pole in poles):
+            poles.append(optimum.direction)
+    seen = (evidence.constant - best.chi_square) / by > NEAR * (6 if best.mode != "principal-axis" else 4)
+    found = evidence.reached >= REACHED
+    periods = _of(len(pairs), seen, found)
+    pole = _of(len(poles), seen and periods != LOST, found)
+    simple = simple_rotation(evidence)
+    modes = {optimum.mode for optimum in near}
+    if simple is not None and simple.probability > CHANCE:
+        modes.add("principal-axis")
+    mode = _of(len(modes), seen, found)
+    if mode == AMBIGUOUS and periods == SECURE and "principal-axis" in modes and best.mode != "principal-axis":
+        # The periods of a tumbler that may not tumble.
+        periods = AMBIGUOUS
+    return Verdict(periods, pole, mode, _sentence(evidence, (periods, pole, mode), (len(pairs), len(poles)), sorted(modes), simple))
+
+
+def _of(count: int, seen: bool, found: bool) -> str:
+    if not seen or count > MANY:
+        return LOST
+    return SECURE if count == 1 and found else AMBIGUOUS
+
+
+def _sentence(
+    evidence: Evidence, words: tuple[str, str, str], counts: tuple[int, int], modes: list[str], simple: SimpleRotation | None
+) -> str:
+    best = evidence.optima[0]
+    periods, pole, mode = words
+    if best.mode == "principal-axis":
+        size = 2 * np.pi / np.linalg.norm(best.scene.angular_velocity)
+        what = f"The period {size:.6g}{evidence.unit}"
+    else:
+        precession, rotation = best.periods
+        what = f"The periods P_φ {precession:.6g}{evidence.unit}, P_ψ {rotation:.6g}{evidence.unit}"
+    several = f" ({counts[0]} within the scaled Δχ² {NEAR:g})" if counts[0] > 1 else ""
+    longitude, latitude = np.degrees(best.pole)
+    of_pole = f" ({counts[1]} of them)" if counts[1] > 1 else ""
+    text = f"{what} {'are' if best.mode != 'principal-axis' else 'is'} {periods}{several}, the pole λ {longitude % 360:.1f}° β {latitude:.1f}° {pole}{of_pole}, the mode {best.mode} {mode}"
+    if simple is not None:
+        text += f"; simple rotation with {simple.period:.6g}{evidence.unit} fits worse by Δχ² {simple.delta_chi_square:.4g} (by chance {simple.probability:.1g})"
+    elif len(modes) > 1:
+        text += f" (also {', '.join(name for name in modes if name != best.mode)})"
+    if evidence.reached < REACHED:
+        text += "; one start alone led to the best minimum, so try more"
+    return text + "."
