@@ -2,6 +2,7 @@
 
 use andoyer_propagate::evolutions::{self, EvolveOptions, Evolved};
 use andoyer_propagate::options::Averaging;
+use andoyer_series::error::Kind;
 use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -10,6 +11,7 @@ use crate::array::{self, Times};
 use crate::computing::{detached, interruptible};
 use crate::error;
 use crate::foreign::Calendar;
+use crate::order::whole_number;
 use crate::scene_class::Scene;
 use crate::values::immutable;
 
@@ -218,10 +220,85 @@ impl Evolution {
         bands.as_flattened().to_vec().into_pyarray(py).reshape([&leading[..], &[2]].concat())
     }
 
+    /// A scene of the averaged state at a time: torques, orbits and options are those of `scene`, without a span. Of the phases nothing is known, so they are given.
+    ///
+    /// Parameters
+    /// ----------
+    /// time : float or Time
+    /// phases : (float, float)
+    ///     Phases of P_ψ and P_φ in turns, as of `Scene.from_periods`.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A time outside; phases that are not finite; a state so near the separatrix that a double does not hold it.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0], torques=[Torque.damping([1e-9, 1.5e-9, 2e-9])])
+    /// >>> later = scene.evolve((0, 1e9)).motion_at(1e9, (0.25, 0.0))
+    /// >>> later.epoch, later.span is None
+    /// (1000000000.0, True)
+    fn motion_at(&self, py: Python<'_>, time: &Bound<'_, PyAny>, phases: &Bound<'_, PyAny>) -> PyResult<Scene> {
+        let (values, leading) = self.times(time)?;
+        let &[time] = &values[..] else {
+            return Err(error::input("time", values.len(), 1_usize, "time must be one time".to_owned()));
+        };
+        if !leading.is_empty() {
+            return Err(error::input("time", values.len(), 1_usize, "time must be one time, without an axis".to_owned()));
+        }
+        let phases = array::fixed("phases", phases)?;
+        let scene = detached(py, error::propagation, || self.evolution.motion_at(time, phases))?;
+        Ok(Scene { calendar: self.calendar.map(|_| calendar_of(time)), ..scene.into() })
+    }
+
+    /// What becomes of it beyond the separatrix, where the mode depends on phases that the averages have lost: members with evenly spread phases pass it by the full equations, and each outcome goes on in averages.
+    ///
+    /// Parameters
+    /// ----------
+    /// members : int, optional
+    ///     Number of members: a probability p is known to about √(p(1 − p)/members), and better since the phases are spread evenly.
+    /// seed : int, optional
+    ///     Another seed shifts the phases.
+    ///
+    /// Returns
+    /// -------
+    /// list of (float, Evolution)
+    ///     The probability of each mode and sense that is reached, the most likely first, and the averaged motion of one of its members up to the end of the span. An evolution that ends
+    ///     otherwise is its own, with the probability 1.
+    ///
+    /// Raises
+    /// ------
+    /// TheoryError
+    ///     A member that stays at the separatrix; what `Scene.evolve` raises beyond it.
+    #[pyo3(signature = (members=None, seed=None), text_signature = "($self, members=64, seed=0)")]
+    fn through(
+        &self,
+        py: Python<'_>,
+        members: Option<&Bound<'_, PyAny>>,
+        seed: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Vec<(f64, Self)>> {
+        let number = |name, value: Option<&Bound<'_, PyAny>>, least, default| {
+            value.map_or(Ok(default), |value| whole_number(name, value, least, 1 << 30, Kind::Input))
+        };
+        let (members, seed) = (number("members", members, 1, 64)?, number("seed", seed, 0, 0)?);
+        if members == 0 {
+            return Err(error::input("members", 0_usize, 1_usize, "members = 0: it must be 1 or more".to_owned()));
+        }
+        let pass = |stop: &std::sync::atomic::AtomicBool| self.evolution.through(members, seed as u64, stop);
+        let passages = interruptible(py, true, error::propagation, pass)?;
+        let of = |passage: evolutions::Passage| {
+            let time = passage.evolution.scene().state().epoch;
+            let calendar = self.calendar.map(|_| calendar_of(time));
+            (passage.probability, Self { evolution: passage.evolution, calendar })
+        };
+        Ok(passages.into_iter().map(of).collect())
+    }
+
     /// Why and when it ends.
     #[getter]
-    fn end(&self) -> EvolutionEnd {
-        EvolutionEnd(self.evolution.end())
+    fn end(&self) -> PyResult<EvolutionEnd> {
+        Ok(EvolutionEnd(self.evolution.end(), self.evolution.spread().map_err(error::propagation)?))
     }
 
     /// What is known of its error; each call integrates the full equations over thirty rotations.
@@ -254,6 +331,12 @@ impl Evolution {
     }
 }
 
+/// The calendar time of TDB seconds since J2000.
+fn calendar_of(seconds: f64) -> Calendar {
+    let days = (seconds / 86400.0).floor();
+    ([2_451_545.0 + days, (seconds - 86400.0 * days) / 86400.0], 0, None)
+}
+
 impl Evolution {
     /// Times on the scale of the scene, and the shape of what is computed at them.
     fn times(&self, times: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<usize>)> {
@@ -267,7 +350,7 @@ impl Evolution {
 /// The end of an evolution, from `Evolution.end`.
 #[pyclass(frozen, eq, module = "andoyer")]
 #[derive(PartialEq)]
-pub(crate) struct EvolutionEnd(evolutions::EvolutionEnd);
+pub(crate) struct EvolutionEnd(evolutions::EvolutionEnd, Option<f64>);
 
 immutable!(EvolutionEnd);
 
@@ -283,6 +366,12 @@ impl EvolutionEnd {
     #[getter]
     fn time(&self) -> f64 {
         self.0.time
+    }
+
+    /// Of the separatrix the time in which the averages pass what they leave out: it is reached earlier or later by about this. None for other reasons.
+    #[getter]
+    fn spread(&self) -> Option<f64> {
+        self.1
     }
 
     fn __repr__(&self) -> String {

@@ -1,13 +1,16 @@
 //! `Scene.from_orbital`, `Motion.orbital` and `andoyer.Orbital`.
 
-use andoyer_propagate::State;
+use std::sync::atomic::AtomicBool;
+
+use andoyer_propagate::nalgebra::UnitQuaternion;
 use andoyer_propagate::orbital::{EulerSequence, OrbitalFrame, OrbitalSample};
+use andoyer_propagate::{Error, State};
 use andoyer_series::error::Kind;
 use numpy::{PyArray, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
-use crate::array::{self, chunks, write};
+use crate::array::{self, Times, chunks, write};
 use crate::body::Body;
 use crate::computing::interruptible;
 use crate::error;
@@ -79,8 +82,7 @@ impl Scene {
         options: Option<Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
-        let frame = asked(elements_of, frame, of)?;
-        let sequence: EulerSequence = sequence.parse().map_err(error::propagation)?;
+        let asked = Asked::new(elements_of, frame, sequence, of)?;
         let (time, _) = given_epoch(epoch)?;
         let keywords = options.unwrap_or_else(|| PyDict::new(class.py()));
         let scalar_first = keywords.get_item("scalar_first")?.is_some_and(|value| value.is_truthy().unwrap_or(false));
@@ -91,28 +93,17 @@ impl Scene {
         // A quaternion has no unit; three angles may have one.
         let argument = if foreign::holds_units(attitude)? { "angles" } else { "attitude" };
         let (attitude, scalar_first) = foreign::attitudes("attitude", attitude, scalar_first)?;
-        let turn = match &array::numbers_of(argument, &attitude)?[..] {
-            &[first, second, third] => {
-                if let Some(index) = [first, second, third].iter().position(|angle| !angle.is_finite()) {
-                    let value = [first, second, third][index];
-                    return Err(error::input(
-                        "attitude",
-                        value,
-                        "finite",
-                        format!("attitude[{index}] = {value}: an angle must be finite"),
-                    ));
-                }
-                sequence.attitude([first, second, third])
-            }
-            &[x, y, z, w] => {
-                let mut quaternion = [x, y, z, w];
-                foreign::scalar_last(&mut quaternion, scalar_first);
-                State::new(time, quaternion, rates).map_err(error::propagation)?.attitude
-            }
-            other => return Err(error::shape("attitude", &[other.len()], "(4,) or (3,)")),
-        };
+        let mut numbers = array::numbers_of(argument, &attitude)?;
+        if let [_, _, _, _] = numbers[..] && scalar_first {
+            numbers.rotate_left(1);
+        }
+        if !matches!(numbers.len(), 3 | 4) {
+            return Err(error::shape("attitude", &[numbers.len()], "(4,) or (3,)"));
+        }
+        let turn = asked.turned(&numbers).map_err(error::propagation)?;
+        State::new(time, [0.0, 0.0, 0.0, 1.0], rates).map_err(error::propagation)?;
         let bodies = disturbing_bodies(orbit)?;
-        let scene = andoyer_propagate::Scene::from_orbital(of_body, bodies, &frame, turn, rates.into(), relative, time);
+        let scene = andoyer_propagate::Scene::from_orbital(of_body, bodies, &asked.frame, turn, rates.into(), relative, time);
         keywords.set_item("orbit", orbit)?;
         with_options(class, body, (&scene.map_err(error::propagation)?, epoch), Some(keywords))
     }
@@ -156,26 +147,81 @@ impl Motion {
         sequence: &str,
         of: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Orbital> {
-        let frame = asked(elements_of, frame, of)?;
-        let sequence: EulerSequence = sequence.parse().map_err(error::propagation)?;
-        let times = self.times(times)?;
+        let asked = Asked::new(elements_of, frame, sequence, of)?;
+        asked.orbital(py, &self.times(times)?, |since_epoch, values, out, stop| {
+            out.fill(&asked, self.batch(since_epoch, stop).orbital(values, &asked.frame)?);
+            Ok(())
+        })
+    }
+}
+
+/// The frame and the sequence of angles that are asked for.
+pub(crate) struct Asked {
+    pub(crate) frame: OrbitalFrame,
+    pub(crate) sequence: EulerSequence,
+}
+
+/// Where samples are written, a row for each time.
+pub(crate) struct Rows<'a> {
+    pub(crate) attitude: &'a mut [[f64; 4]],
+    pub(crate) angles: &'a mut [[f64; 3]],
+    pub(crate) rates: &'a mut [[f64; 3]],
+}
+
+impl Rows<'_> {
+    pub(crate) fn fill(self, asked: &Asked, samples: Vec<OrbitalSample>) {
+        for (row, OrbitalSample { attitude: turn, angular_velocity }) in samples.into_iter().enumerate() {
+            self.attitude[row] = turn.coords.into();
+            self.angles[row] = asked.sequence.angles(&turn);
+            self.rates[row] = angular_velocity.into();
+        }
+    }
+}
+
+impl Asked {
+    pub(crate) fn new(
+        elements_of: &str,
+        frame: &str,
+        sequence: &str,
+        of: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let of = of.map_or(Ok(0), |of| whole_number("of", of, 0, usize::from(u16::MAX), Kind::Input))?;
+        let elements_of = elements_of.parse().map_err(error::propagation)?;
+        let frame = OrbitalFrame { elements_of, axes: frame.parse().map_err(error::propagation)?, of };
+        Ok(Self { frame, sequence: sequence.parse().map_err(error::propagation)? })
+    }
+
+    /// The rotation from body components to those of the frame of a quaternion, or of three angles.
+    pub(crate) fn turned(&self, numbers: &[f64]) -> Result<UnitQuaternion<f64>, Error> {
+        match numbers {
+            &[first, second, third] => {
+                let angles = [first, second, third];
+                match angles.iter().all(|angle| angle.is_finite()) {
+                    true => Ok(self.sequence.attitude(angles)),
+                    false => Err(Error::Direction { argument: "attitude", value: angles.to_vec() }),
+                }
+            }
+            &[x, y, z, w] => Ok(State::new(0.0, [x, y, z, w], [0.0; 3])?.attitude),
+            other => Err(Error::Length { argument: "attitude", found: other.len(), expected: 4 }),
+        }
+    }
+
+    /// Arrays at times, which `evaluate` fills.
+    pub(crate) fn orbital<'py>(
+        &self,
+        py: Python<'py>,
+        times: &Times<'py>,
+        evaluate: impl FnOnce(bool, &[f64], Rows<'_>, &AtomicBool) -> Result<(), Error> + Send,
+    ) -> PyResult<Orbital> {
         let since_epoch = times.since_epoch();
         let [copy, attitude, rates] = times.samples()?;
         let angles = PyArray::zeros(py, rates.dims(), false);
         {
             let (mut attitude, mut angle, mut rate) = (write(&attitude)?, write(&angles)?, write(&rates)?);
-            let (attitude, angle, rate) = (chunks(&mut attitude)?, chunks(&mut angle)?, chunks(&mut rate)?);
+            let (attitude, angles, rates) = (chunks(&mut attitude)?, chunks(&mut angle)?, chunks(&mut rate)?);
             let values = times.values()?;
-            let evaluate = |stop: &_| {
-                let samples = self.batch(since_epoch, stop).orbital(values, &frame)?;
-                for (row, OrbitalSample { attitude: turn, angular_velocity }) in samples.into_iter().enumerate() {
-                    attitude[row] = turn.coords.into();
-                    angle[row] = sequence.angles(&turn);
-                    rate[row] = angular_velocity.into();
-                }
-                Ok(())
-            };
-            interruptible(py, times.long(), error::propagation, evaluate)?;
+            let into = |stop: &_| evaluate(since_epoch, values, Rows { attitude, angles, rates }, stop);
+            interruptible(py, times.long(), error::propagation, into)?;
         }
         let given = times.given().unwrap_or_else(|| copy.into_any().unbind());
         Ok(Orbital {
@@ -187,13 +233,7 @@ impl Motion {
     }
 }
 
-fn asked(elements_of: &str, frame: &str, of: Option<&Bound<'_, PyAny>>) -> PyResult<OrbitalFrame> {
-    let of = of.map_or(Ok(0), |of| whole_number("of", of, 0, usize::from(u16::MAX), Kind::Input))?;
-    let elements_of = elements_of.parse().map_err(error::propagation)?;
-    Ok(OrbitalFrame { elements_of, axes: frame.parse().map_err(error::propagation)?, of })
-}
-
-/// Attitudes and angular velocities against the orbital frame, from `Motion.orbital`. For a scalar time there is no leading axis.
+/// Attitudes and angular velocities against the orbital frame, from `Motion.orbital`, or of all members with a leading axis from `Ensemble.orbital`. For a scalar time there is no axis of times.
 ///
 /// Examples
 /// --------
@@ -239,13 +279,17 @@ impl Orbital {
 
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
         match self.attitude.bind(py).shape() {
-            [first, _] => Ok(*first),
+            [first, _, ..] => Ok(*first),
             _ => Err(pyo3::exceptions::PyTypeError::new_err("samples at a scalar time have no len()")),
         }
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {
         match self.attitude.bind(py).shape() {
+            [members, count, _] => {
+                let counted = crate::samples::counted;
+                format!("<Orbital of {} at {} each>", counted(*members, "member"), counted(*count, "time"))
+            }
             [count, _] => format!("<Orbital at {}>", crate::samples::counted(*count, "time")),
             _ => "<Orbital at a scalar time>".to_owned(),
         }

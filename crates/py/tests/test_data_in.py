@@ -75,9 +75,7 @@ def test_no_polynomial_passes_the_edge_of_two_segments():
     times = np.arange(-4800.0, edge + 1, 240.0)
     later = np.arange(edge, last + 2400, 240.0)
     before, moved = np.array([kepler(time) for time in times]), rows(later, after, 1.0)
-    joined = TabulatedOrbit(
-        np.concatenate([times, later]), np.concatenate([before[:, 0], moved[0]]), GM, velocities=np.concatenate([before[:, 1], moved[1]])
-    )
+    joined = TabulatedOrbit(np.concatenate([times, later]), np.concatenate([before[:, 0], moved[0]]), GM, velocities=np.concatenate([before[:, 1], moved[1]]))
     first = Scene(BODY, *STATE, orbit=ORBIT, method="integrated", span=(0, edge)).solve()
     second = Scene(BODY, first.attitude(edge), first.angular_velocity(edge), epoch=edge, orbit=after, method="integrated", span=(edge, last)).solve()
     motion = Scene(BODY, *STATE, orbit=joined, span=(0, last), tolerance=1e-6).solve()

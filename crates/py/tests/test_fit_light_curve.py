@@ -1,5 +1,7 @@
 """Fits of light curves: a known answer from starts that know nothing of it, in either mode; derivatives; what is refused."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -110,7 +112,7 @@ def test_derivatives_of_the_projected_residuals_give_the_gradient_of_chi_square(
     for place in range(6 + 2 * shape):
         step = np.zeros((1, 6 + 2 * shape))
         step[0, place] = 1e-5
-        up, down = (curve.chi_squares(_search.moved(states, sign * step)) for sign in (1, -1))
+        up, down = (curve.chi_squares(curve.moved(states, sign * step)) for sign in (1, -1))
         # χ² falls along the gradient of the residuals' model: dχ²/ds = −2 Jᵀr.
         assert np.isclose((up - down) / 2e-5, -2 * normal.gradient[0, place], rtol=1e-5, atol=1e-5 * np.abs(normal.gradient).max())
 
@@ -118,11 +120,11 @@ def test_derivatives_of_the_projected_residuals_give_the_gradient_of_chi_square(
 def test_normal_equations_are_those_of_the_state_and_the_factor_without_the_factor():
     """JᵀJ of the projected problem is the Schur complement of the full one, whose derivatives are differences here."""
     truth, times, sun, observer, values, sigma = observed("short-axis", points=30)
-    curve, _ = _light_curve._curve((times, None), values, (sun, observer), sigma, None, ("lommel-seeliger", True))
+    curve = replace(_light_curve._data((times, None), (values, None, sigma), (sun, observer), None, None).curve, shape=True)
     state = _light_curve._state_of(truth, AXES, times[0])
 
     def model(step):
-        axes, attitudes, rates = _search.moved(state, step[None])
+        axes, attitudes, rates = curve.moved(state, step[None])
         motion = Scene(Body.ellipsoid(*axes[0]), attitudes[0], rates[0], epoch=times[0]).solve()
         return fit.brightness(axes[0], motion.attitude(times), sun, observer) / sigma
 

@@ -4,6 +4,7 @@ import inspect
 import pickle
 import sys
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -50,6 +51,12 @@ def noisy(scene, generator, sigma=0.01):
     return scene.solve().rotation(TIMES) * Rotation.from_rotvec(sigma * generator.standard_normal((len(TIMES), 3)))
 
 
+def curve_of(times, values, given):
+    """The data of a fit."""
+    return _light_curve._data((times, None), (values, None, given["sigma"]), (given["sun"], given["observer"]), None, None).curve
+
+
+
 def test_bad_fit_is_called_bad_with_what_to_try():
     """Attitudes of another motion, and a light curve of other axes: the reduced χ² is far above 1."""
     found = fit.attitudes(TRUTH, TIMES, noisy(TRUTH, np.random.default_rng(1), sigma=0.05), sigma=0.01)
@@ -72,10 +79,10 @@ def test_limit_of_a_good_fit_is_the_quantile_of_chi_square():
 def test_reflected_motion_is_a_start_and_a_rival_minimum():
     """Sun and observer in one plane: the motion turned by π about its normal has the same brightness, and χ² to rounding."""
     truth, times, values, given = observed("short-axis", height=0.0)
-    curve, _ = _light_curve._curve((times, None), values, (given["sun"], given["observer"]), given["sigma"], None, ("lommel-seeliger", False))
+    curve = curve_of(times, values, given)
     state = _light_curve._state_of(truth, AXES, times[0])
     one = _light_curve._polished(curve, _search.Population(state, curve.chi_squares(state)))
-    found = _light_curve._with_reflections(curve, one)
+    found = _light_curve._with_others(curve, one)
     assert len(one.chi_squares) == 1 and abs(found.chi_squares[1] - found.chi_squares[0]) < 1e-6
     assert list(found.chi_squares) == sorted(found.chi_squares)
     best, mirrored = (Scene(Body.ellipsoid(*AXES), found.states.attitudes[place], found.states.rates[place], epoch=times[0]) for place in range(2))
@@ -94,7 +101,7 @@ def test_search_names_the_mirrored_motion():
 def test_reflections_keep_the_brightness_in_one_plane():
     _, times, _, given = observed("long-axis", height=0.0)
     units = [vectors / np.linalg.norm(vectors, axis=1, keepdims=True) for vectors in (given["sun"], given["observer"])]
-    curve, _ = _light_curve._curve((times, None), np.ones(len(times)), units, 0.1, None, ("lommel-seeliger", False))
+    curve = curve_of(times, np.ones(len(times)), {"sun": units[0], "observer": units[1], "sigma": 0.1})
     state = _search.random_states(AXES, (0.6, 2.0), 1, np.random.default_rng(3))
     mirrored = _search.reflections(curve, state)
     seen_by = [curve._seen(part, curve._ensemble(part).attitude(curve.times)) for part in (state, *(mirrored.part([place]) for place in range(3)))]
@@ -105,7 +112,7 @@ def test_reflections_keep_the_brightness_in_one_plane():
 
 def test_ellipsoid_with_its_axes_in_another_order_is_the_same_minimum():
     truth, times, values, given = observed("short-axis")
-    curve, _ = _light_curve._curve((times, None), values, (given["sun"], given["observer"]), given["sigma"], None, ("lommel-seeliger", True))
+    curve = replace(curve_of(times, values, given), shape=True)
     state = _light_curve._state_of(truth, AXES, times[0])
     cycle = np.array([[0, 0, 1.0], [1, 0, 0], [0, 1, 0]])  # columns: the new axes in the old ones
     attitude = (Rotation.from_quat(state.attitudes[0]) * Rotation.from_matrix(cycle)).as_quat()
@@ -118,7 +125,7 @@ def test_ellipsoid_with_its_axes_in_another_order_is_the_same_minimum():
 
 def test_aliases_are_pairs_of_periods_that_differ_by_half_a_turn_over_the_data():
     def optimum(rate, chi_square):
-        return Optimum(Scene(TRUTH.body, TRUTH.attitude, np.array(TRUTH.angular_velocity) * rate), "short-axis", chi_square)
+        return Optimum(Scene(TRUTH.body, TRUTH.attitude, np.array(TRUTH.angular_velocity) * rate), "short-axis", chi_square, chi_square - 100.0, None)
 
     precession = optimum(1.0, 0.0).periods.precession
     duration = 50 * precession  # half a turn is a hundredth of the frequency
@@ -163,9 +170,9 @@ def test_rotation_about_an_axis_leaves_the_moments_near_their_first_values():
 def test_magnitudes_given_as_intensities_warn(magnitude):
     truth, times, values, given = observed("short-axis")
     magnitudes = magnitude - 2.5 * np.log10(values)
-    with pytest.warns(UserWarning, match=r"the brightnesses lie between .* give the intensities 10\*\*\(-0.4\*m\)"):
+    with pytest.warns(UserWarning, match=r"the brightnesses lie between .* give them as magnitudes="):
         fit.light_curve(AXES, times, magnitudes, scene=truth, **(given | {"sigma": 0.02}))
-    with pytest.raises(andoyer.InputError, match=r"for magnitudes m give the intensities 10\*\*\(-0.4\*m\)") as error:
+    with pytest.raises(andoyer.InputError, match="magnitudes go to magnitudes=") as error:
         fit.light_curve(AXES, times, magnitudes - magnitude - 3, scene=truth, **given)
     assert error.value.argument == "brightness" and error.value.value < 0
 

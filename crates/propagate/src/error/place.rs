@@ -4,7 +4,8 @@ use super::Error;
 
 impl Error {
     /// The error of one member of an ensemble.
-    pub(crate) fn of_member(index: usize, problem: Self) -> Self {
+    #[must_use]
+    pub fn of_member(index: usize, problem: Self) -> Self {
         Self::Member { index, others: 0, problem: Box::new(problem) }
     }
 

@@ -21,6 +21,7 @@ pub struct Evolution {
     scene: Scene,
     problem: AveragedScene,
     span: [f64; 2],
+    tolerance: f64,
     /// To the start of the span, and to its end.
     paths: [AveragedPath; 2],
 }
@@ -59,6 +60,22 @@ impl Evolution {
             Ok([turn / momentum.norm(), excess])
         };
         self.at(times)?.iter().map(one).collect()
+    }
+
+    /// The time in which the averages pass what they leave out of ξ at the end: the separatrix is reached earlier or later by about this. `None` for an end of another reason.
+    ///
+    /// # Errors
+    /// As [`Evolution::at`].
+    pub fn spread(&self) -> Result<Option<f64>, Error> {
+        let EvolutionEnd { reason, time } = self.end();
+        if reason != EndReason::Separatrix {
+            return Ok(None);
+        }
+        let epoch = self.problem.equations.epoch;
+        let before = time - 1e-3 * (time - epoch);
+        let change = self.at(&[time])?[0].excess - self.at(&[before])?[0].excess;
+        let [_, band] = self.band(&[before])?[0];
+        Ok((change != 0.0).then(|| (band * (time - before) / change).abs()))
     }
 
     /// Why and when it ends: towards the end of the span, or towards its start if that is where it stops.
@@ -102,6 +119,16 @@ impl Evolution {
     /// The scene.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// The largest relative error of a step of the integration.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// ξ of the separatrix.
+    pub fn separatrix(&self) -> f64 {
+        self.problem.equations.family.alpha(&self.problem.equations.moments).y
     }
 
     /// Whether torques are averaged over orbits, too.
@@ -211,6 +238,6 @@ impl Scene {
         let mut run = |end: f64| AveragedPath::run(&mut scaled, node, (end, longest), tolerance, options.stop);
         // The way to a span beside the epoch belongs to it.
         let paths = [run(start.min(epoch))?, run(stop.max(epoch))?];
-        Ok(Evolution { scene: self.clone(), problem, span: [start, stop], paths })
+        Ok(Evolution { scene: self.clone(), problem, span: [start, stop], tolerance, paths })
     }
 }

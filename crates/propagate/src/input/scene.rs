@@ -167,6 +167,11 @@ impl Scene {
         Self { state, rate_lows: [0.0; 3], ..self.clone() }
     }
 
+    /// The same scene without a span.
+    pub(crate) fn without_span(self) -> Self {
+        Self { span: None, ..self }
+    }
+
     /// The same scene with another body and another state.
     pub(crate) fn starting_from(&self, body: Body, state: State) -> Self {
         Self { body, state, rate_lows: [0.0; 3], ..self.clone() }

@@ -1,18 +1,21 @@
 //! Arguments of `andoyer.Ensemble`.
 
 use andoyer_propagate::disturbers::DisturbingBody;
-use andoyer_propagate::ensemble::Outcome;
+use andoyer_propagate::ensemble::{MAX_THREADS, OnError, Outcome};
+use andoyer_propagate::error::Kind;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyList, PyTuple};
+use pyo3::types::{PyDict, PyList, PyTuple};
 
-use crate::array::{number, numbers_of};
+use crate::array::{number, numbers_of, span as span_of};
 use crate::error;
 use crate::foreign::{self, Calendar};
 use crate::orbit::Orbit;
+use crate::order::whole_number;
 use crate::scene::arguments::{disturbing_bodies, kind};
 use crate::scene_class::Scene;
 use crate::tabulated::TabulatedOrbit;
+use crate::torque;
 
 /// Epochs as numbers, one or one for each member, and as calendar times if they are Time objects.
 pub(super) fn epochs_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<Calendar>)> {
@@ -94,6 +97,49 @@ pub(super) fn scenes_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<SceneOrError>
         }
     }
     Ok((scenes, calendar))
+}
+
+/// The options of all scenes.
+const OPTIONS: [&str; 6] = ["orbit", "torques", "tolerance", "method", "level", "span"];
+
+/// The ensemble of scenes or their errors, with options of all of them; `maker` is named where there is no such option.
+pub(super) fn of_scenes(
+    scenes: Vec<SceneOrError>,
+    (time, calendar): (f64, Option<Calendar>),
+    (threads, on_error): (Option<&Bound<'_, PyAny>>, OnError),
+    options: Option<&Bound<'_, PyDict>>,
+    maker: &str,
+) -> PyResult<andoyer_propagate::Ensemble> {
+    let threads = threads.map(|value| whole_number("threads", value, 1, MAX_THREADS, Kind::Input)).transpose()?;
+    let mut ensemble = andoyer_propagate::Ensemble::from_scenes(scenes, on_error).map_err(error::propagation)?;
+    let mut orbits = None;
+    for (name, value) in options.into_iter().flat_map(|options| options.iter()) {
+        let name: String = name.extract()?;
+        if value.is_none() && OPTIONS.contains(&&name[..]) {
+            continue;
+        }
+        ensemble = match &name[..] {
+            "tolerance" => ensemble.tolerance(tolerance(&value)?),
+            "method" => ensemble.method(value.extract::<String>()?.parse().map_err(error::propagation)?),
+            "level" => ensemble.level(value.extract::<String>()?.parse().map_err(error::propagation)?),
+            "torques" => ensemble.torques(torque::torques(&value)?),
+            "span" => {
+                let [start, stop] = span_of(&value, time, calendar)?;
+                ensemble.span(start, stop)
+            }
+            "orbit" => {
+                orbits = orbits_given(Some(&value), None)?;
+                ensemble
+            }
+            _ => {
+                let text = format!("{name} is not an option of {maker}: {} are", OPTIONS.join(", "));
+                return Err(PyTypeError::new_err(text));
+            }
+        };
+    }
+    let ensemble = asked(ensemble, orbits, None, threads).map_err(error::propagation)?;
+    ensemble.validate().map_err(error::propagation)?;
+    Ok(ensemble)
 }
 
 pub(super) fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {

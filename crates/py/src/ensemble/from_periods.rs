@@ -1,7 +1,5 @@
 //! `andoyer.Ensemble.from_periods`: clones of a tumbler from periods that are published with their errors.
 
-use andoyer_propagate::ensemble::MAX_THREADS;
-use andoyer_propagate::error::Kind;
 use andoyer_propagate::nalgebra::Vector3;
 use andoyer_propagate::options::Convention;
 use andoyer_propagate::periods::ObservedPeriods;
@@ -10,15 +8,13 @@ use numpy::PyUntypedArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::arguments::{asked, orbits_given, tolerance};
+use super::arguments::of_scenes;
 use super::bodies::Bodies;
-use crate::array::{MemberRows, numbers, numbers_of, span as span_of};
+use crate::array::{MemberRows, numbers, numbers_of};
 use crate::computing::detached;
 use crate::error;
 use crate::foreign::Calendar;
-use crate::order::whole_number;
 use crate::scene::arguments::epoch as epoch_of;
-use crate::torque;
 
 /// One value for all members, or one for each.
 enum Column<T> {
@@ -123,49 +119,15 @@ impl Clones {
     ) -> PyResult<(andoyer_propagate::Ensemble, Option<Calendar>)> {
         let convention = convention.parse().map_err(error::propagation)?;
         let on_error = errors.parse().map_err(error::propagation)?;
-        let threads = threads.map(|value| whole_number("threads", value, 1, MAX_THREADS, Kind::Input)).transpose()?;
         let (time, calendar) = epoch_of(epoch)?;
-        let py = options.map(Bound::py);
         let scenes = || (0..self.members).map(|index| self.scene(index, convention, time)).collect();
-        let make = || andoyer_propagate::Ensemble::from_scenes(scenes(), on_error);
-        let mut ensemble = match py {
-            Some(py) => detached(py, error::propagation, make)?,
-            None => make().map_err(error::propagation)?,
+        let scenes = match options.map(Bound::py) {
+            Some(py) => detached(py, error::propagation, || Ok(scenes()))?,
+            None => scenes(),
         };
-        let mut orbits = None;
-        for (name, value) in options.into_iter().flat_map(|options| options.iter()) {
-            let name: String = name.extract()?;
-            if value.is_none() && OPTIONS.contains(&&name[..]) {
-                continue;
-            }
-            ensemble = match &name[..] {
-                "tolerance" => ensemble.tolerance(tolerance(&value)?),
-                "method" => ensemble.method(value.extract::<String>()?.parse().map_err(error::propagation)?),
-                "level" => ensemble.level(value.extract::<String>()?.parse().map_err(error::propagation)?),
-                "torques" => ensemble.torques(torque::torques(&value)?),
-                "span" => {
-                    let [start, stop] = span_of(&value, time, calendar)?;
-                    ensemble.span(start, stop)
-                }
-                "orbit" => {
-                    orbits = orbits_given(Some(&value), None)?;
-                    ensemble
-                }
-                _ => return Err(unknown(&name)),
-            };
-        }
-        let ensemble = asked(ensemble, orbits, None, threads).map_err(error::propagation)?;
-        ensemble.validate().map_err(error::propagation)?;
+        let ensemble = of_scenes(scenes, (time, calendar), (threads, on_error), options, "Ensemble.from_periods")?;
         Ok((ensemble, calendar))
     }
-}
-
-/// The options of all scenes.
-const OPTIONS: [&str; 6] = ["orbit", "torques", "tolerance", "method", "level", "span"];
-
-fn unknown(name: &str) -> PyErr {
-    let text = format!("{name} is not an option of Ensemble.from_periods: {} are", OPTIONS.join(", "));
-    pyo3::exceptions::PyTypeError::new_err(text)
 }
 
 fn periods_of(name: &'static str, value: &Bound<'_, PyAny>) -> PyResult<Column<f64>> {

@@ -31,6 +31,7 @@ mod copies;
 mod distribution;
 mod evaluate;
 mod from_periods;
+mod orbital;
 use arguments::{asked, epochs_of, orbits_given, refused, scenes_of, tolerance};
 use bodies::Bodies;
 use from_periods::Clones;

@@ -33,6 +33,8 @@ SETTLING = 60
 """Steps of them all before each is polished alone."""
 FEW = 2000
 """Least number of starts of the hypothesis of simple rotation."""
+HYPOTHESES = 4
+"""Simple rotations that are improved to the end beside a tumbling motion."""
 PRINCIPAL = "principal-axis"
 SAME = 0.02
 """Largest angle [rad], at three times of the data, between attitudes of one optimum."""
@@ -163,12 +165,12 @@ def light_curve(
         count, generator = whole_number("starts", starts, 1), generator_of(rng)
         limits = _range(periods)
         if curve.spin is not None:
-            return _result(data, _simple(curve, semi_axes, limits, count, generator), None, largest, scale_errors)
+            return _result(data, _simple(curve, semi_axes, limits, (count, POLISHED), generator), None, largest, scale_errors)
         found = _searched(curve, random_states(semi_axes, limits, count, generator))
         # The spin of a body that hardly wobbles is slower than its precession: by A/C at most.
         moments = np.sort(moments_of_ellipsoid(semi_axes))
         simple = replace(curve, spin=int(np.argmax(moments_of_ellipsoid(semi_axes))))
-        rotation = _simple(simple, semi_axes, (limits[0], limits[1] * moments[2] / moments[0]), max(FEW, count // 5), generator)
+        rotation = _simple(simple, semi_axes, (limits[0], limits[1] * moments[2] / moments[0]), (max(FEW, count // 5), HYPOTHESES), generator)
     return _result(data, found, (replace(data, curve=simple), rotation), largest, scale_errors)
 
 
@@ -194,20 +196,21 @@ class Found:
     reached: int
 
 
-def _searched(curve: Curve, drawn: States) -> Found:
+def _searched(curve: Curve, drawn: States, count: int = POLISHED) -> Found:
     """The minima to which random starts lead, with their reflections and their aliases by the gaps of the data."""
     population = search(curve, drawn)
     ended = population.chi_squares
-    population = improve(curve, best(_distinct(curve, population), POLISHED), SETTLING)
-    population = _with_others(curve, _polished(curve, population))
+    population = _polished(curve, improve(curve, best(_distinct(curve, population), count), SETTLING))
+    if count == POLISHED:
+        population = _with_others(curve, population)
     least = float(population.chi_squares[0])
-    return Found(population, int(np.sum(ended <= least * (1 + 1e-3) + 1.0)))
+    return Found(population, int(np.sum(ended <= 1.05 * least + 4.0)))
 
 
-def _simple(curve: Curve, axes: Array, periods: tuple[float, float], count: int, generator: np.random.Generator) -> Found:
-    """Simple rotations from random starts."""
+def _simple(curve: Curve, axes: Array, periods: tuple[float, float], starts: tuple[int, int], generator: np.random.Generator) -> Found:
+    """Simple rotations from random starts, of which so many minima are improved to the end."""
     assert curve.spin is not None
-    return _searched(curve, random_spins(axes, curve.spin, periods, count, generator))
+    return _searched(curve, random_spins(axes, curve.spin, periods, starts[0], generator), starts[1])
 
 
 def _data(
@@ -382,7 +385,9 @@ class Seen:
         residuals, slopes = (np.concatenate(arrays) for arrays in zip(*parts))
         jacobian = -np.swapaxes(slopes, 1, 2)
         jacobian[..., :3] = jacobian[..., :3] @ right_jacobian(steps[:, :3])
-        jacobian[..., 3 : len(self.curve.columns) - 2 * self.curve.shape] *= (np.linalg.norm(self.state.rates) / np.linalg.norm(there.rates, axis=1))[:, None, None]
+        jacobian[..., 3 : len(self.curve.columns) - 2 * self.curve.shape] *= (np.linalg.norm(self.state.rates) / np.linalg.norm(there.rates, axis=1))[
+            :, None, None
+        ]
         return residuals, jacobian
 
 
@@ -394,7 +399,9 @@ def _result(data: Data, found: Found, hypothesis: tuple[Data, Found] | None, del
     fit = _of_minimum(data, found.population.states.part(slice(0, 1)), best, scale_errors)
     simple = _optima(*hypothesis, scale_errors)[0] if hypothesis is not None else None
     curve = data.curve
-    constant = np.sum((curve.weights * curve.brightness) @ curve.members / (curve.weights @ curve.members) * ((curve.weights * curve.brightness) @ curve.members))
+    constant = np.sum(
+        (curve.weights * curve.brightness) @ curve.members / (curve.weights @ curve.members) * ((curve.weights * curve.brightness) @ curve.members)
+    )
     evidence = Evidence(
         optima=minima,
         residuals=fit.residuals_over_sigma,
@@ -412,6 +419,20 @@ def _result(data: Data, found: Found, hypothesis: tuple[Data, Found] | None, del
     return replace(fit, message=message, optima=optima, verdict=judge(evidence), simple_rotation=simple_rotation(evidence))
 
 
+@dataclass(frozen=True, eq=False)
+class Refit:
+    """The fit of a minimum, made when it is asked for."""
+
+    data: Data
+    state: States
+    chi_square: float
+    scale_errors: bool
+
+    def __call__(self) -> Fit:
+        alone = Found(Population(self.state, np.array([self.chi_square])), REACHED)
+        return _result(self.data, alone, None, np.inf, self.scale_errors)
+
+
 def _optima(data: Data, found: Found, scale_errors: bool) -> list[Optimum]:
     """The minima of a search as scenes."""
     least = float(found.population.chi_squares[0])
@@ -422,11 +443,7 @@ def _optima(data: Data, found: Found, scale_errors: bool) -> list[Optimum]:
         scene = Scene(body, state.attitudes[0], state.rates[0], epoch=data.epoch)
         mode = PRINCIPAL if data.curve.spin is not None else scene.solve().plan.mode
 
-        def made(state: States = state, chi_square: float = float(chi_square)) -> Fit:
-            alone = Found(Population(state, np.array([chi_square])), REACHED)
-            return _result(data, alone, None, np.inf, scale_errors)
-
-        optima.append(Optimum(scene, mode, float(chi_square), float(chi_square) - least, made))
+        optima.append(Optimum(scene, mode, float(chi_square), float(chi_square) - least, Refit(data, state, float(chi_square), scale_errors)))
     return optima
 
 
@@ -473,7 +490,9 @@ def _zero_points(data: Data, state: States, covariance: Array, factor: float) ->
     relative = (variances + np.einsum("kc,kl,lc->c", slopes, covariance, slopes)) / factors**2
     first = np.argmax(data.curve.members, axis=0)
     magnitude = np.zeros(len(factors)) if data.photometry.zero is None else data.photometry.zero[first]
-    return ZeroPoints(data.labels[first], magnitude - POGSON * np.log(factors), POGSON * np.sqrt(factor * relative))
+    # The model is in units of (π/2) a³.
+    unit = np.pi / 2 * state.axes[0, 0] ** 3
+    return ZeroPoints(data.labels[first], magnitude - POGSON * np.log(factors / unit), POGSON * np.sqrt(factor * relative))
 
 
 @dataclass(frozen=True, eq=False)
@@ -510,7 +529,9 @@ class Light:
         if len(places) != 1:
             raise refusal("curve", label, labels.tolist(), f"= {label!r}: it must be one of {labels.tolist()}")
         directions = [vectors.T for vectors in unit_vectors(*sides)]
-        light = replace(curve, times=at, brightness=np.ones(len(at)), weights=np.ones(len(at)), sun=directions[0], observer=directions[1], members=np.ones((len(at), 1)))
+        light = replace(
+            curve, times=at, brightness=np.ones(len(at)), weights=np.ones(len(at)), sun=directions[0], observer=directions[1], members=np.ones((len(at), 1))
+        )
         seen, _, _, _ = light.model(state)
         zero = self.data.photometry.zero
         given = Photometry(seen, seen, None if zero is None else np.full(len(at), zero[self.data.labels == labels[places[0]]][0]))

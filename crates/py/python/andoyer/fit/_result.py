@@ -226,7 +226,12 @@ class Fit:
         if len(self.optima) > 1:
             lines.append(("minima", f"{len(self.optima)}, the second with Δχ² {self.optima[1].chi_square - self.optima[0].chi_square:.3g}"))
         if self.simple_rotation is not None:
-            lines.append(("simple rotation", f"P {self.simple_rotation.period:.6g}, Δχ² {self.simple_rotation.delta_chi_square:.4g}, by chance {self.simple_rotation.probability:.2g}"))
+            lines.append(
+                (
+                    "simple rotation",
+                    f"P {self.simple_rotation.period:.6g}, Δχ² {self.simple_rotation.delta_chi_square:.4g}, by chance {self.simple_rotation.probability:.2g}",
+                )
+            )
         if self.verdict is not None:
             lines.append(("verdict", str(self.verdict)))
         title = f"Fit of {len(self.parameters)} parameters ({', '.join(self.parameters)}) to {self.residuals.size} data"

@@ -164,9 +164,7 @@ def _of(count: int, seen: bool, found: bool) -> str:
     return SECURE if count == 1 and found else AMBIGUOUS
 
 
-def _sentence(
-    evidence: Evidence, words: tuple[str, str, str], counts: tuple[int, int], modes: list[str], simple: SimpleRotation | None
-) -> str:
+def _sentence(evidence: Evidence, words: tuple[str, str, str], counts: tuple[int, int], modes: list[str], simple: SimpleRotation | None) -> str:
     best = evidence.optima[0]
     periods, pole, mode = words
     if best.mode == "principal-axis":
@@ -180,7 +178,9 @@ def _sentence(
     of_pole = f" ({counts[1]} of them)" if counts[1] > 1 else ""
     text = f"{what} {'are' if best.mode != 'principal-axis' else 'is'} {periods}{several}, the pole λ {longitude % 360:.1f}° β {latitude:.1f}° {pole}{of_pole}, the mode {best.mode} {mode}"
     if simple is not None:
-        text += f"; simple rotation with {simple.period:.6g}{evidence.unit} fits worse by Δχ² {simple.delta_chi_square:.4g} (by chance {simple.probability:.1g})"
+        text += (
+            f"; simple rotation with {simple.period:.6g}{evidence.unit} fits worse by Δχ² {simple.delta_chi_square:.4g} (by chance {simple.probability:.1g})"
+        )
     elif len(modes) > 1:
         text += f" (also {', '.join(name for name in modes if name != best.mode)})"
     if evidence.reached < REACHED:

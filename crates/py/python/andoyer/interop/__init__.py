@@ -11,7 +11,14 @@ if _TYPE_CHECKING:
     from andoyer.interop._photometry import LightCurves, read_alcdef, read_damit
     from andoyer.interop._shape import read_shape, write_shape
 
-_HOMES = {"LightCurves": "_photometry", "read_alcdef": "_photometry", "read_damit": "_photometry", "read_oem": "_oem", "read_shape": "_shape", "write_shape": "_shape"}
+_HOMES = {
+    "LightCurves": "_photometry",
+    "read_alcdef": "_photometry",
+    "read_damit": "_photometry",
+    "read_oem": "_oem",
+    "read_shape": "_shape",
+    "write_shape": "_shape",
+}
 
 __all__ = ["LightCurves", "read_alcdef", "read_damit", "read_oem", "read_shape", "write_shape"]
 

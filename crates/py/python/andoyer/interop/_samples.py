@@ -49,7 +49,9 @@ def _times(times: Any, epoch: Any) -> tuple[Array, Any]:
     back = np.flatnonzero(~(np.diff(seconds) > 0))
     if back.size:
         row = back[0] + 1
-        raise refusal(f"times[{row}]", float(seconds[row]), float(seconds[back[0]]), f"= {seconds[row]!r} must be after {seconds[back[0]]!r}, the one before it")
+        raise refusal(
+            f"times[{row}]", float(seconds[row]), float(seconds[back[0]]), f"= {seconds[row]!r} must be after {seconds[back[0]]!r}, the one before it"
+        )
     if epoch is None:
         return seconds, times if of_calendar else None
     dates = later(parts(epoch)[0], seconds)
