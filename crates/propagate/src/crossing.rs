@@ -31,7 +31,7 @@ const EVEN: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 
 /// What becomes of some of the phases.
 #[derive(Clone, Debug)]
-pub struct Passage {
+pub struct Crossing {
     /// The share of the phases.
     pub probability: f64,
     /// The mode after the separatrix.
@@ -78,11 +78,11 @@ impl Evolution {
     ///
     /// # Errors
     /// - Those of [`Scene::solve`] and [`Scene::evolve`]; [`Error::NotAveraged`] if a member stays at the separatrix.
-    pub fn through(&self, members: usize, seed: u64, stop: &AtomicBool) -> Result<Vec<Passage>, Error> {
+    pub fn through(&self, members: usize, seed: u64, stop: &AtomicBool) -> Result<Vec<Crossing>, Error> {
         let end = self.end();
         if end.reason != EndReason::Separatrix || members == 0 {
             let (mode, sense) = (self.at(&[end.time])?[0].mode, self.sense());
-            return Ok(vec![Passage { probability: 1.0, mode, sense, evolution: self.clone() }]);
+            return Ok(vec![Crossing { probability: 1.0, mode, sense, evolution: self.clone() }]);
         }
         let (start, distance, wobble) = self.before(end.time)?;
         let state = self.at(&[start])?[0];
@@ -104,7 +104,7 @@ impl Evolution {
             let (first, last) = if end.time < start { (first, time) } else { (time, last.max(time)) };
             let options = EvolveOptions::default().span(first.min(last), last).average(self.average());
             let evolution = scene.evolve(options.tolerance(self.tolerance()).until(stop))?;
-            Ok(Passage { probability: count as f64 / members as f64, mode, sense, evolution })
+            Ok(Crossing { probability: count as f64 / members as f64, mode, sense, evolution })
         };
         found.into_iter().map(evolved).collect()
     }

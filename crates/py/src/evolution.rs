@@ -287,7 +287,7 @@ impl Evolution {
         }
         let pass = |stop: &std::sync::atomic::AtomicBool| self.evolution.through(members, seed as u64, stop);
         let passages = interruptible(py, true, error::propagation, pass)?;
-        let of = |passage: evolutions::Passage| {
+        let of = |passage: evolutions::Crossing| {
             let time = passage.evolution.scene().state().epoch;
             let calendar = self.calendar.map(|_| calendar_of(time));
             (passage.probability, Self { evolution: passage.evolution, calendar })

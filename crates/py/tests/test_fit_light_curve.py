@@ -11,7 +11,7 @@ from andoyer import Body, Scene
 pytest.importorskip("scipy")
 from andoyer import fit
 from andoyer._quaternions import angle_between, product
-from andoyer.fit import _curve, _light_curve, _search
+from andoyer.fit import _curve, _light_curve, _observed, _search
 
 AXES = np.array([1.0, 0.7, 0.5])
 SPAN, NOISE = 6.0, 0.02
@@ -120,7 +120,7 @@ def test_derivatives_of_the_projected_residuals_give_the_gradient_of_chi_square(
 def test_normal_equations_are_those_of_the_state_and_the_factor_without_the_factor():
     """JᵀJ of the projected problem is the Schur complement of the full one, whose derivatives are differences here."""
     truth, times, sun, observer, values, sigma = observed("short-axis", points=30)
-    curve = replace(_light_curve._data((times, None), (values, None, sigma), (sun, observer), None, None).curve, shape=True)
+    curve = replace(_observed.data_of((times, None), (values, None, sigma), (sun, observer), None, None).curve, shape=True)
     state = _light_curve._state_of(truth, AXES, times[0])
 
     def model(step):

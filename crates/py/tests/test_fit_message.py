@@ -17,7 +17,7 @@ pytest.importorskip("scipy")
 from scipy.spatial.transform import Rotation
 
 from andoyer import fit
-from andoyer.fit import _light_curve, _search
+from andoyer.fit import _light_curve, _observed, _search
 from andoyer.fit._message import composed, rivals
 from andoyer.fit._optimum import Optimum, aliases
 
@@ -53,8 +53,7 @@ def noisy(scene, generator, sigma=0.01):
 
 def curve_of(times, values, given):
     """The data of a fit."""
-    return _light_curve._data((times, None), (values, None, given["sigma"]), (given["sun"], given["observer"]), None, None).curve
-
+    return _observed.data_of((times, None), (values, None, given["sigma"]), (given["sun"], given["observer"]), None, None).curve
 
 
 def test_bad_fit_is_called_bad_with_what_to_try():

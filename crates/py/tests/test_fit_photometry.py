@@ -27,9 +27,8 @@ def observed(rates, noise=0.01, seed=1, directions=(SUN, OBSERVER)):
     return scene, times, nights, exact + noise * generator.standard_normal(len(times))
 
 
-def fitted(scene, times, nights, magnitudes, **options):
-    first = Scene(scene.body, scene.attitude, np.array(scene.angular_velocity) * 1.0005, epoch=times[0])
-    given = {"sun": SUN, "observer": OBSERVER, "sigma": 0.01, "curves": nights, "scene": first.solve().scene_at(times[0])}
+def fitted(times, nights, magnitudes, **options):
+    given = {"sun": SUN, "observer": OBSERVER, "sigma": 0.01, "curves": nights}
     return fit.light_curve(AXES, times, magnitudes=magnitudes, **given | options)
 
 
@@ -40,12 +39,19 @@ def start(scene, times):
 
 def test_zero_points_come_back_with_their_errors():
     scene, times, nights, magnitudes = observed([0.3, 0.2, 0.9])
-    found = fitted(scene, times, nights, magnitudes, scene=start(scene, times))
+    found = fitted(times, nights, magnitudes, scene=start(scene, times))
     pulls = (found.zero_points.magnitudes - ZERO) / found.zero_points.sigma
     assert np.abs(pulls).max() < 4 and 0.001 < found.zero_points.sigma.max() < 0.02 and found.zero_points.curves.tolist() == [0, 1, 2]
     assert found.residuals.std() == pytest.approx(0.01, rel=0.2) and np.abs(magnitudes - found.model() - found.residuals).max() < 0.01
     intensities = fit.light_curve(
-        AXES, times, 10 ** (-0.4 * magnitudes), sun=SUN, observer=OBSERVER, sigma=10 ** (-0.4 * magnitudes) * 0.01 * 0.4 * np.log(10), curves=nights, scene=start(scene, times)
+        AXES,
+        times,
+        10 ** (-0.4 * magnitudes),
+        sun=SUN,
+        observer=OBSERVER,
+        sigma=10 ** (-0.4 * magnitudes) * 0.01 * 0.4 * np.log(10),
+        curves=nights,
+        scene=start(scene, times),
     )
     assert np.abs(intensities.zero_points.magnitudes - found.zero_points.magnitudes).max() < 1e-6
     assert angle_between(intensities.scene.attitude, found.scene.attitude) < 1e-6
@@ -53,17 +59,17 @@ def test_zero_points_come_back_with_their_errors():
 
 def test_errors_of_zero_points_are_those_of_many_fits():
     found = []
-    for seed in range(40):
+    for seed in range(25):
         scene, times, nights, magnitudes = observed([0.3, 0.2, 0.9], seed=seed)
-        one = fitted(scene, times, nights, magnitudes, scene=start(scene, times))
+        one = fitted(times, nights, magnitudes, scene=start(scene, times))
         found.append((one.zero_points.magnitudes - ZERO) / one.zero_points.sigma)
-    # The mean of 40 pulls and their width: three standard deviations of each.
-    assert np.abs(np.mean(found, axis=0)).max() < 0.5 and np.all(np.abs(np.std(found, axis=0) - 1) < 0.35)
+    # The mean of 25 pulls and their width: three standard deviations of each.
+    assert np.abs(np.mean(found, axis=0)).max() < 0.6 and np.all(np.abs(np.std(found, axis=0) - 1) < 0.45)
 
 
 def test_the_model_is_seen_at_other_times():
     scene, times, nights, magnitudes = observed([0.3, 0.2, 0.9])
-    found = fitted(scene, times, nights, magnitudes, scene=start(scene, times))
+    found = fitted(times, nights, magnitudes, scene=start(scene, times))
     other = np.linspace(1, 50, 30)
     exact = ZERO[0] - 2.5 * np.log10(fit.brightness(AXES, scene.solve().attitude(other), SUN, OBSERVER))
     assert np.abs(found.model(other) - exact).max() < 0.05
@@ -72,7 +78,7 @@ def test_the_model_is_seen_at_other_times():
         found.model(other, curve=7)
     moving = np.tile(SUN, (len(times), 1))
     with pytest.raises(InputError, match="sun must be given for times outside the data"):
-        fitted(scene, times, nights, magnitudes, scene=start(scene, times), sun=moving).model([1e4])
+        fitted(times, nights, magnitudes, scene=start(scene, times), sun=moving).model([1e4])
     assert found.model([1e3], sun=SUN, observer=OBSERVER).shape == (1,)
 
 
@@ -85,15 +91,17 @@ def test_light_time_is_taken_off():
     guess = Scene(first.body, first.attitude, np.array(first.angular_velocity) / 3600)
     date = time.Time("2026-11-28T00:00:00", scale="utc")
     at = date + (times * 3600 - times[0] * 3600 + light) * units.s
-    found = fitted(scene, at, nights, magnitudes, scene=guess, distances=distances)
-    plain = fitted(scene, 3600 * (times - times[0]), nights, magnitudes, scene=guess)
-    assert abs((found.scene.solve().times_epoch if hasattr(found.scene, "times_epoch") else 0)) == 0
+    dated = Scene(guess.body, guess.attitude, guess.angular_velocity, epoch=date)
+    found = fitted(at, nights, magnitudes, scene=dated, distances=distances)
+    plain = fitted(3600 * (times - times[0]), nights, magnitudes, scene=guess)
+    # The light left at the second midnight less the light time of the first point.
+    assert abs((found.scene.__getnewargs_ex__()[1]["epoch"] - date).to_value("s")) < 1e-6
     assert np.abs(found.scene.angular_velocity - plain.scene.angular_velocity).max() < 1e-9 * np.abs(plain.scene.angular_velocity).max() * 1e3
     assert abs(found.chi_square - plain.chi_square) < 1e-3 * plain.chi_square
     with pytest.raises(InputError, match="distances .*times as a Time or a Quantity"):
-        fitted(scene, times, nights, magnitudes, distances=1.0)
+        fitted(times, nights, magnitudes, scene=guess, distances=1.0)
     with pytest.raises(InputError, match="distances"):
-        fitted(scene, at, nights, magnitudes, scene=guess, distances=-1.0)
+        fitted(at, nights, magnitudes, scene=dated, distances=-1.0)
 
 
 def test_simple_rotation_is_fitted_as_such():
@@ -102,16 +110,22 @@ def test_simple_rotation_is_fitted_as_such():
         AXES, times, magnitudes=magnitudes, sigma=0.01, curves=nights, sun=SUN, observer=OBSERVER, periods=(4, 9), starts=4000, mode="principal-axis"
     )
     best = found.optima[0]
-    assert best.mode == "principal-axis" and best.periods.precession == pytest.approx(2 * np.pi / 1.1, rel=2e-4) and best.periods.rotation == np.inf
+    assert best.mode == "principal-axis" and best.periods.rotation == np.inf and found.verdict.periods == "secure"
+    deviation = best.periods.precession * np.sqrt(found.covariance[3, 3]) / np.linalg.norm(best.scene.angular_velocity)
+    assert abs(best.periods.precession - 2 * np.pi / 1.1) < 4 * deviation < 0.02
     assert found.parameters == ("θ1", "θ2", "θ3", "ω") and found.covariance.shape == (4, 4) and found.units[3] == "rad per unit of time"
     assert 80 < found.chi_square < 160 and "period" in str(found) and "P_ψ" not in str(found).splitlines()[3]
     momentum = scene.solve().angular_momentum(0.0)
-    angles = [np.degrees(np.arccos(np.clip(optimum.direction @ momentum / np.linalg.norm(momentum), -1, 1))) for optimum in found.optima if optimum.delta_chi_square < 25]
-    assert min(angles) < 10
+    angles = [
+        np.degrees(np.arccos(np.clip(optimum.direction @ momentum / np.linalg.norm(momentum), -1, 1)))
+        for optimum in found.optima
+        if optimum.delta_chi_square < 25
+    ]
+    assert min(angles) < 45  # the longitude is known to 19° from one geometry
 
 
 def test_every_tumbling_fit_says_by_how_much_it_beats_simple_rotation():
-    scene, times, nights, magnitudes = observed([0.3, 0.2, 0.9])
+    _, times, nights, magnitudes = observed([0.3, 0.2, 0.9])
     options = {"sun": SUN, "observer": OBSERVER, "sigma": 0.01, "curves": nights, "periods": (4, 9), "starts": 2000}
     found = fit.light_curve(AXES, times, magnitudes=magnitudes, **options)
     assert found.simple_rotation.delta_chi_square > 1000 and found.simple_rotation.probability < 1e-6
@@ -123,7 +137,7 @@ def test_every_tumbling_fit_says_by_how_much_it_beats_simple_rotation():
     again = pickle.loads(pickle.dumps(found))
     assert again.verdict == found.verdict and again.optima[1].fit().chi_square == pytest.approx(rival.chi_square)
     # A steady rotator: two more parameters gain no more than noise does.
-    scene, times, nights, magnitudes = observed([0, 0, 1.1], seed=2)
+    _, times, nights, magnitudes = observed([0, 0, 1.1], seed=2)
     steady = fit.light_curve(AXES, times, magnitudes=magnitudes, **options)
     assert steady.simple_rotation.probability > 1e-3 and steady.verdict.mode != "secure"
     assert steady.simple_rotation.period == pytest.approx(2 * np.pi / 1.1, rel=1e-3)
@@ -131,7 +145,7 @@ def test_every_tumbling_fit_says_by_how_much_it_beats_simple_rotation():
 
 def test_errors_are_scaled_on_request():
     scene, times, nights, magnitudes = observed([0.3, 0.2, 0.9], noise=0.03)
-    plain, scaled = (fitted(scene, times, nights, magnitudes, scene=start(scene, times), scale_errors=on) for on in (False, True))
+    plain, scaled = (fitted(times, nights, magnitudes, scene=start(scene, times), scale_errors=on) for on in (False, True))
     assert plain.reduced_chi_square > 5 and "The fit is bad" in plain.message
     assert np.allclose(scaled.covariance, plain.reduced_chi_square * plain.covariance)
     assert np.allclose(scaled.zero_points.sigma, np.sqrt(plain.reduced_chi_square) * plain.zero_points.sigma)
@@ -153,4 +167,4 @@ def test_errors_are_scaled_on_request():
 def test_bad_photometry_is_named(options, message):
     scene, times, nights, magnitudes = observed([0.3, 0.2, 0.9])
     with pytest.raises(andoyer.InputError, match=message):
-        fitted(scene, times, nights, **{"magnitudes": magnitudes} | options)
+        fitted(times, nights, **{"magnitudes": magnitudes, "scene": start(scene, times)} | options)

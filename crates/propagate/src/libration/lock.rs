@@ -106,7 +106,7 @@ impl Lock {
         let (turn, moments) = axes_of(body)?;
         let mut shape = shape_of(orbit, moments, twice)?;
         let still = |shape: &LockedShape| {
-            let attitude = Place::new(orbit, epoch, shape).turned() * turn.inverse();
+            let attitude = FramePlace::new(orbit, epoch, shape).turned() * turn.inverse();
             let rates = attitude.inverse() * (orbit.mean_motion() * orbit.axes_at(epoch)[2]);
             Scene::new(body.clone(), State { epoch, attitude, angular_velocity: rates })
         };
@@ -130,8 +130,8 @@ impl Lock {
         let (resonance, n, epoch) = (f64::from(shape.twice) / 2.0, orbit.mean_motion(), scene.state().epoch);
         let anomaly = orbit.mean_anomaly(epoch);
         let [node, _] = orbit.node_and_argument(epoch);
-        let place = Place::new(orbit, epoch, &shape);
-        let Place { start, longitude, argument, turn, alpha, tilt } = place;
+        let place = FramePlace::new(orbit, epoch, &shape);
+        let FramePlace { start, longitude, argument, turn, alpha, tilt } = place;
         let seen = place.turned().inverse() * scene.state().attitude;
         // A half turn about an axis of the body is another equilibrium: the nearest one counts.
         let near = |turn: &UnitQuaternion<f64>| (seen * turn).w.abs();
@@ -171,7 +171,7 @@ impl Lock {
 
 /// Where the frame of a resonance is at a time.
 #[derive(Clone, Copy)]
-struct Place {
+struct FramePlace {
     /// M, the longitude of the node and the argument of pericentre \[rad\].
     start: f64,
     longitude: f64,
@@ -183,7 +183,7 @@ struct Place {
     tilt: UnitQuaternion<f64>,
 }
 
-impl Place {
+impl FramePlace {
     fn new(orbit: &Orbit, epoch: f64, shape: &LockedShape) -> Self {
         let [node, argument] = orbit.node_and_argument(epoch);
         let [start, longitude, argument] =

@@ -674,6 +674,10 @@ class Evolution:
         """The averaged state at times of the span, up to the end of the evolution."""
     def band(self, times: Any) -> _Array:
         """What the averages leave out at times: root mean square over the phases of the short-period parts."""
+    def motion_at(self, time: float | Any, phases: ArrayLike) -> Scene:
+        """A scene of the averaged state at a time: torques, orbits and options are those of `scene`, without a span. Of the phases nothing is known, so they are given."""
+    def through(self, members: int = 64, seed: int = 0) -> list[tuple[float, Evolution]]:
+        """What becomes of it beyond the separatrix, where the mode depends on phases that the averages have lost: members with evenly spread phases pass it by the full equations, and each outcome goes on in averages."""
     @property
     def end(self) -> EvolutionEnd:
         """Why and when it ends."""
@@ -702,6 +706,9 @@ class EvolutionEnd:
     @property
     def time(self) -> float:
         """When it ends."""
+    @property
+    def spread(self) -> float | None:
+        """Of the separatrix the time in which the averages pass what they leave out: it is reached earlier or later by about this. None for other reasons."""
     def __eq__(self, other: object, /) -> bool: ...
     def __copy__(self) -> EvolutionEnd: ...
     def __deepcopy__(self, _memo: Any) -> EvolutionEnd: ...
@@ -757,7 +764,7 @@ class EvolvedStates:
 
 @final
 class Orbital:
-    """Attitudes and angular velocities against the orbital frame, from `Motion.orbital`. For a scalar time there is no leading axis."""
+    """Attitudes and angular velocities against the orbital frame, from `Motion.orbital`, or of all members with a leading axis from `Ensemble.orbital`. For a scalar time there is no axis of times."""
 
     @property
     def times(self) -> Any:
@@ -861,6 +868,30 @@ class Ensemble:
         **options: Any,
     ) -> Ensemble:
         """An ensemble of torque-free bodies that tumble with these periods, each as `Scene.from_periods` has it: clones of a tumbler whose periods, pole and phases are uncertain."""
+    @staticmethod
+    def from_orbital(
+        bodies: Body | Iterable[Body] | ArrayLike,
+        attitudes: ArrayLike | Any,
+        angular_velocities: ArrayLike,
+        *,
+        orbit: Orbit | TabulatedOrbit | Sequence[Orbit | TabulatedOrbit] | None = None,
+        orbits: Any = None,
+        elements_of: Literal["rotating", "disturbing"],
+        frame: Literal["rtn", "lvlh"] = "rtn",
+        relative: bool = True,
+        sequence: str = "ZYX",
+        epoch: float | Any = 0.0,
+        of: int = 0,
+        threads: int | None = None,
+        errors: Literal["raise", "nan"] = "raise",
+        scalar_first: bool = False,
+        **options: Any,
+    ) -> Ensemble:
+        """An ensemble of states that are given against the orbital frame, each as `Scene.from_orbital` has it: satellites that are released with a spread of angles and rates."""
+    def orbital(
+        self, times: ArrayLike, *, elements_of: Literal["rotating", "disturbing"], frame: Literal["rtn", "lvlh"] = "rtn", sequence: str = "ZYX", of: int = 0
+    ) -> Orbital:
+        """Attitudes and angular velocities of all members against the orbital frame."""
     def after(self, time: float | Any) -> Distribution:
         """How all members tumble at a time: the free motions from their states then."""
     @property

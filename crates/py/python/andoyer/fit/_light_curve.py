@@ -14,14 +14,13 @@ from andoyer._extra import extra
 from andoyer._quaternions import Array, angle_between, product
 from andoyer._refusal import refusal
 from andoyer.fit._curve import Curve, States
-from andoyer.fit._given import enough, from_epoch, from_first, generator_of, scene_of, shaped, span, whole_number
-from andoyer.fit._magnitudes import POGSON, Photometry, ZeroPoints, emitted
-from andoyer.fit._magnitudes import photometry as photometry_of
+from andoyer.fit._given import enough, generator_of, scene_of, shaped, span, whole_number
+from andoyer.fit._magnitudes import POGSON, ZeroPoints
 from andoyer.fit._message import composed, largest_reduced, rivals
+from andoyer.fit._observed import Data, Light, Seen, confused, data_of
 from andoyer.fit._optimum import Optimum
-from andoyer.fit._result import Fit, judged
-from andoyer.fit._rotations import right_jacobian
-from andoyer.fit._scattering import axes_of, law, unit_vectors
+from andoyer.fit._result import Fit, Photometric, judged
+from andoyer.fit._scattering import axes_of, law
 from andoyer.fit._search import Population, at_other_rates, best, improve, random_spins, random_states, reflections, search
 from andoyer.fit._steps import Steps, moments_of_ellipsoid
 from andoyer.fit._verdict import REACHED, Evidence, judge, simple_rotation
@@ -148,7 +147,7 @@ def light_curve(
     if mode not in (None, PRINCIPAL):
         raise refusal("mode", mode, PRINCIPAL, f"= {mode!r}: it must be None or {PRINCIPAL!r}")
     largest = _difference(delta_chi_square)
-    data = _data((times, scene), (brightness, magnitudes, sigma), (sun, observer), curves, distances)
+    data = data_of((times, scene), (brightness, magnitudes, sigma), (sun, observer), curves, distances)
     curve = replace(data.curve, scattering=scattering, shape=bool(shape), spin=int(np.argmax(moments_of_ellipsoid(semi_axes))) if mode else None)
     enough(len(curve.times), len(curve.columns) + curve.members.shape[1], "times", "give more points")
     if data.epoch is None:
@@ -175,20 +174,6 @@ def light_curve(
 
 
 @dataclass(frozen=True, eq=False)
-class Data:
-    """The data of a fit, and what leads back to them as they were given."""
-
-    curve: Curve
-    photometry: Photometry
-    epoch: Any
-    """A number, a Time for times of astropy, or None for durations, which count from the epoch of the scene."""
-    times: Any
-    labels: Array
-    light: Array | None
-    """Light times [s]."""
-
-
-@dataclass(frozen=True, eq=False)
 class Found:
     """Minima, the best first, and how many starts led to the best."""
 
@@ -211,27 +196,6 @@ def _simple(curve: Curve, axes: Array, periods: tuple[float, float], starts: tup
     """Simple rotations from random starts, of which so many minima are improved to the end."""
     assert curve.spin is not None
     return _searched(curve, random_spins(axes, curve.spin, periods, starts[0], generator), starts[1])
-
-
-def _data(
-    dates: tuple[Any, Scene | None],
-    measured: tuple[Any, Any, ArrayLike],
-    seen: tuple[ArrayLike, ArrayLike],
-    curves: ArrayLike | None,
-    distances: ArrayLike | None,
-) -> Data:
-    at, epoch = from_first("times", *dates)
-    count, light = len(at), None
-    labels = np.zeros(count) if curves is None else shaped("curves", curves, (count,))
-    photometry = photometry_of(*measured, labels)
-    for argument, vectors in zip(("sun", "observer"), seen):
-        shaped(argument, vectors, (3,), (count, 3))
-    sun, observer = (np.atleast_2d(vectors).T for vectors in unit_vectors(*seen))
-    if distances is not None:
-        at, epoch, light = emitted("times", dates[0], at, epoch, distances)
-    members = (labels[:, None] == np.unique(labels)).astype(float)
-    curve = Curve(at, photometry.brightness, photometry.sigma**-2.0, sun, observer, members, "lommel-seeliger", False)
-    return Data(curve, photometry, epoch, dates[0], labels, light)
 
 
 def _range(periods: Any) -> tuple[float, float]:
@@ -359,44 +323,12 @@ def _jacobian(step: Array, curve: Curve, state: States) -> Array:
     return jacobian
 
 
-@dataclass(frozen=True, eq=False)
-class Seen:
-    """The data with the model, as functions of steps from one state."""
-
-    curve: Curve
-    state: States
-
-    @property
-    def duration(self) -> float:
-        """From the first to the last time."""
-        return float(np.ptp(self.curve.times))
-
-    def _moved(self, steps: Array) -> States:
-        return self.curve.moved(States(*(np.repeat(array, len(steps), axis=0) for array in self.state)), steps)
-
-    def chi_squares(self, steps: Array) -> Array:
-        """χ² of steps in rows."""
-        return self.curve.chi_squares(self._moved(steps))
-
-    def derivatives(self, steps: Array) -> tuple[Array, Array]:
-        """Residuals (measured minus model) over σ of steps in rows, and their derivatives with respect to the steps."""
-        there = self._moved(steps)
-        parts = self.curve.in_chunks(there, self.curve.residuals)
-        residuals, slopes = (np.concatenate(arrays) for arrays in zip(*parts))
-        jacobian = -np.swapaxes(slopes, 1, 2)
-        jacobian[..., :3] = jacobian[..., :3] @ right_jacobian(steps[:, :3])
-        jacobian[..., 3 : len(self.curve.columns) - 2 * self.curve.shape] *= (np.linalg.norm(self.state.rates) / np.linalg.norm(there.rates, axis=1))[
-            :, None, None
-        ]
-        return residuals, jacobian
-
-
 def _result(data: Data, found: Found, hypothesis: tuple[Data, Found] | None, delta_chi_square: float, scale_errors: bool) -> Fit:
     """The fit of the best minimum, with all minima and the verdict."""
     minima = _optima(data, found, scale_errors)
     best = minima[0]
     optima = tuple(minimum for minimum in minima if minimum.delta_chi_square <= delta_chi_square)
-    fit = _of_minimum(data, found.population.states.part(slice(0, 1)), best, scale_errors)
+    fit, zero_points, lost, residuals = _of_minimum(data, found.population.states.part(slice(0, 1)), best, scale_errors)
     simple = _optima(*hypothesis, scale_errors)[0] if hypothesis is not None else None
     curve = data.curve
     constant = np.sum(
@@ -404,7 +336,7 @@ def _result(data: Data, found: Found, hypothesis: tuple[Data, Found] | None, del
     )
     evidence = Evidence(
         optima=minima,
-        residuals=fit.residuals_over_sigma,
+        residuals=residuals,
         curves=np.argmax(curve.members, axis=1),
         degrees=fit.degrees_of_freedom,
         duration=float(np.ptp(curve.times)),
@@ -415,8 +347,10 @@ def _result(data: Data, found: Found, hypothesis: tuple[Data, Found] | None, del
     )
     if data.photometry.zero is None:
         _warn_of_magnitudes(curve.brightness, best.chi_square, fit.degrees_of_freedom)
-    message = composed(best.chi_square, fit.degrees_of_freedom, ADVICE, fit.lost, rivals(minima, evidence.duration))
-    return replace(fit, message=message, optima=optima, verdict=judge(evidence), simple_rotation=simple_rotation(evidence))
+    message = composed(best.chi_square, fit.degrees_of_freedom, ADVICE, lost, rivals(minima, evidence.duration))
+    light = Light(data, fit._model)  # type: ignore[arg-type]
+    photometric = Photometric(zero_points, judge(evidence), simple_rotation(evidence), light.at)
+    return replace(fit, message=message, optima=optima, _photometric=photometric)
 
 
 @dataclass(frozen=True, eq=False)
@@ -447,8 +381,8 @@ def _optima(data: Data, found: Found, scale_errors: bool) -> list[Optimum]:
     return optima
 
 
-def _of_minimum(data: Data, state: States, best: Optimum, scale_errors: bool) -> Fit:
-    """The fit of one minimum, without what others say of it."""
+def _of_minimum(data: Data, state: States, best: Optimum, scale_errors: bool) -> tuple[Fit, ZeroPoints, str | None, Array]:
+    """The fit of one minimum, without what others say of it; zero points, what the data do not determine, residuals over σ."""
     curve = data.curve
     model = Seen(curve, state)
     residuals, jacobian = (array[0] for array in model.derivatives(np.zeros((1, len(curve.columns)))))
@@ -460,10 +394,9 @@ def _of_minimum(data: Data, state: States, best: Optimum, scale_errors: bool) ->
     units = steps.units(np.zeros(jacobian.shape[1]))
     zero_points = _zero_points(data, state, covariance / np.outer(units, units), factor)
     measured = residuals / np.sqrt(curve.weights)
-    light = Light(data, model)
     if data.photometry.zero is not None:
         measured = data.photometry.as_given(curve.brightness) - data.photometry.as_given(curve.brightness - measured)
-    return Fit(
+    fit = Fit(
         scene=best.scene,
         parameters=steps.labels,
         covariance=factor * covariance,
@@ -477,11 +410,8 @@ def _of_minimum(data: Data, state: States, best: Optimum, scale_errors: bool) ->
         _model=model,
         optima=(best,),
         semi_axes=state.axes[0],
-        zero_points=zero_points,
-        lost=sentence,
-        residuals_over_sigma=residuals,
-        _light=light,
     )
+    return fit, zero_points, sentence, residuals
 
 
 def _zero_points(data: Data, state: States, covariance: Array, factor: float) -> ZeroPoints:
@@ -493,61 +423,6 @@ def _zero_points(data: Data, state: States, covariance: Array, factor: float) ->
     # The model is in units of (π/2) a³.
     unit = np.pi / 2 * state.axes[0, 0] ** 3
     return ZeroPoints(data.labels[first], magnitude - POGSON * np.log(factors / unit), POGSON * np.sqrt(factor * relative))
-
-
-@dataclass(frozen=True, eq=False)
-class Light:
-    """The model of the brightness at any times."""
-
-    data: Data
-    seen: Seen
-
-    def at(self, times: Any, sun: ArrayLike | None, observer: ArrayLike | None, label: Any) -> Array:
-        """Magnitudes or intensities as of the data, at their times (None) or at others."""
-        curve, state = self.data.curve, self.seen.state
-        value, factors, _, _ = curve.model(state)
-        if times is None:
-            return self.data.photometry.as_given((factors @ curve.members.T) * value)
-        at = np.atleast_1d(from_epoch("times", times, self.data.epoch, 0.0 if hasattr(self.data.epoch, "jd1") else float(self.data.epoch)))
-        if at.ndim != 1 or not np.isfinite(at).all():
-            raise refusal("times", at.shape, "(n,)", f"has shape {at.shape}: it must be finite times, shape (n,)")
-        order = np.argsort(curve.times, kind="stable")
-        inside = (at >= curve.times.min()) & (at <= curve.times.max())
-        sides = []
-        for argument, given, own in (("sun", sun, curve.sun), ("observer", observer, curve.observer)):
-            if given is not None:
-                vectors = np.broadcast_to(shaped(argument, given, (3,), (len(at), 3)), (len(at), 3))
-            elif own.shape[1] == 1:
-                vectors = np.broadcast_to(own.T, (len(at), 3))
-            elif not inside.all():
-                raise refusal(argument, None, "directions", "must be given for times outside the data")
-            else:
-                vectors = np.stack([np.interp(at, curve.times[order], axis[order]) for axis in own], axis=1)
-            sides.append(vectors)
-        labels = np.unique(self.data.labels)
-        places = np.flatnonzero(labels == label) if label is not None else np.array([0])
-        if len(places) != 1:
-            raise refusal("curve", label, labels.tolist(), f"= {label!r}: it must be one of {labels.tolist()}")
-        directions = [vectors.T for vectors in unit_vectors(*sides)]
-        light = replace(
-            curve, times=at, brightness=np.ones(len(at)), weights=np.ones(len(at)), sun=directions[0], observer=directions[1], members=np.ones((len(at), 1))
-        )
-        seen, _, _, _ = light.model(state)
-        zero = self.data.photometry.zero
-        given = Photometry(seen, seen, None if zero is None else np.full(len(at), zero[self.data.labels == labels[places[0]]][0]))
-        return given.as_given(factors[places[0]] * seen)
-
-
-def confused(curve: Curve) -> Array:
-    """Shifts of the frequency of rotation, which is half that of the brightness, that the gaps between nights confuse: ±½ and ±1 cycle a gap."""
-    times = np.sort(curve.times)
-    steps = np.diff(times)
-    long = steps > 10 * max(float(np.median(steps)), 0.0)
-    if not long.any():
-        return np.zeros(0)
-    starts = times[np.concatenate([[True], long])]
-    gap = float(np.min(np.diff(starts)))
-    return np.array([-1.0, -0.5, 0.5, 1.0]) / gap
 
 
 def _warn_of_magnitudes(brightness: Array, chi_square: float, degrees: int) -> None:

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from andoyer._core import Motion, Scene
 from andoyer._quaternions import Array
 from andoyer.mean import Periods
-
-if TYPE_CHECKING:
-    from andoyer.fit._result import Fit
 
 HALF_TURN = 0.5
 """Difference of two phases [turns] over the data from which two pairs of periods count as different: half the resolution of the data in frequency."""
@@ -32,10 +29,9 @@ class Optimum:
     """χ² less that of the best minimum."""
     _made: Callable[[], Any]
 
-    def fit(self) -> Fit:
-        """The fit of this minimum, with the standard deviations of its own."""
-        made: Fit = self._made()
-        return made
+    def fit(self) -> Any:
+        """The `Fit` of this minimum, with the standard deviations of its own."""
+        return self._made()
 
     @property
     def periods(self) -> Periods:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -40,6 +41,17 @@ class Draws(NamedTuple):
     """χ² of each state less that of the best, shape (n,)."""
     effective_size: float
     """The number of independent states that the draws are worth, at most n: (Σw)²/Σw² of the weights."""
+
+
+@dataclass(frozen=True, eq=False)
+class Photometric:
+    """What the fit of light curves has beside that of attitudes."""
+
+    zero_points: ZeroPoints
+    verdict: Verdict
+    simple_rotation: SimpleRotation | None
+    model: Callable[..., Array]
+    """Brightnesses at times, from directions to Sun and observer, of a curve."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -86,17 +98,7 @@ class Fit:
     """All minima within Δχ² of the best, the best first; of `light_curve`."""
     semi_axes: Array | None = None
     """Semi-axes of the ellipsoid along principal axes 1, 2, 3; of `light_curve`."""
-    zero_points: ZeroPoints | None = None
-    """The zero point of each curve with its error; of `light_curve`."""
-    verdict: Verdict | None = None
-    """What the data determine: periods, pole and mode; of `light_curve`."""
-    simple_rotation: SimpleRotation | None = None
-    """The hypothesis of rotation about the axis of greatest inertia, fitted to the same data; of `light_curve` without a mode or a scene."""
-    lost: str | None = None
-    """The sentence on what the data do not determine."""
-    residuals_over_sigma: Array | None = None
-    """Residuals over their standard deviations; of `light_curve`, of the intensities."""
-    _light: Any = None
+    _photometric: Photometric | None = None
 
     @property
     def reduced_chi_square(self) -> float:
@@ -110,6 +112,21 @@ class Fit:
         Two pairs of periods count as different if one of their phases differs by more than half a turn over the data. A fit of attitudes, or one that began from a `scene`, has none.
         """
         return aliases(self.optima, self._model.duration)
+
+    @property
+    def zero_points(self) -> ZeroPoints | None:
+        """The zero point of each curve with its error; of `light_curve`."""
+        return self._photometric.zero_points if self._photometric else None
+
+    @property
+    def verdict(self) -> Verdict | None:
+        """What the data determine: periods, pole and mode; of `light_curve`."""
+        return self._photometric.verdict if self._photometric else None
+
+    @property
+    def simple_rotation(self) -> SimpleRotation | None:
+        """The hypothesis of rotation about the axis of greatest inertia, fitted to the same data; of `light_curve` without a mode or a scene."""
+        return self._photometric.simple_rotation if self._photometric else None
 
     @property
     def units(self) -> tuple[str, ...]:
@@ -134,9 +151,8 @@ class Fit:
         InputError
             Times outside the data without directions; a curve that does not exist.
         """
-        if self._light is not None:
-            brightness: Array = self._light.at(times, sun, observer, curve)
-            return brightness
+        if self._photometric is not None:
+            return self._photometric.model(times, sun, observer, curve)
         attitudes: Array = self.scene.solve().attitude(self.times if times is None else times)
         return attitudes
 

@@ -8,16 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from andoyer._extra import extra
 from andoyer._quaternions import Array
 from andoyer.fit._optimum import HALF_TURN, Optimum, turns
-
-if TYPE_CHECKING:
-    from andoyer.fit._result import Fit
 
 SECURE, AMBIGUOUS, LOST = "secure", "ambiguous", "not determined"
 NEAR = 16.0
@@ -50,8 +47,8 @@ class SimpleRotation:
         """The period of rotation."""
         return float(2 * np.pi / np.linalg.norm(self.optimum.scene.angular_velocity))
 
-    def fit(self) -> Fit:
-        """The fit of this hypothesis."""
+    def fit(self) -> Any:
+        """The `Fit` of this hypothesis."""
         return self.optimum.fit()
 
     def __repr__(self) -> str:

@@ -1,0 +1,141 @@
+"""The data of a light-curve fit, and the model of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from andoyer._core import Scene
+from andoyer._quaternions import Array
+from andoyer._refusal import refusal
+from andoyer.fit._curve import Curve, States
+from andoyer.fit._given import from_epoch, from_first, shaped
+from andoyer.fit._magnitudes import Photometry, emitted
+from andoyer.fit._magnitudes import photometry as photometry_of
+from andoyer.fit._rotations import right_jacobian
+from andoyer.fit._scattering import unit_vectors
+
+
+@dataclass(frozen=True, eq=False)
+class Data:
+    """The data of a fit, and what leads back to them as they were given."""
+
+    curve: Curve
+    photometry: Photometry
+    epoch: Any
+    """A number, a Time for times of astropy, or None for durations, which count from the epoch of the scene."""
+    times: Any
+    labels: Array
+    light: Array | None
+    """Light times [s]."""
+
+
+def data_of(
+    dates: tuple[Any, Scene | None],
+    measured: tuple[Any, Any, ArrayLike],
+    seen: tuple[ArrayLike, ArrayLike],
+    curves: ArrayLike | None,
+    distances: ArrayLike | None,
+) -> Data:
+    at, epoch = from_first("times", *dates)
+    count, light = len(at), None
+    labels = np.zeros(count) if curves is None else shaped("curves", curves, (count,))
+    photometry = photometry_of(*measured, labels)
+    for argument, vectors in zip(("sun", "observer"), seen):
+        shaped(argument, vectors, (3,), (count, 3))
+    sun, observer = (np.atleast_2d(vectors).T for vectors in unit_vectors(*seen))
+    if distances is not None:
+        at, epoch, light = emitted("times", dates[0], at, epoch, distances)
+    members = (labels[:, None] == np.unique(labels)).astype(float)
+    curve = Curve(at, photometry.brightness, photometry.sigma**-2.0, sun, observer, members, "lommel-seeliger", False)
+    return Data(curve, photometry, epoch, dates[0], labels, light)
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """The data with the model, as functions of steps from one state."""
+
+    curve: Curve
+    state: States
+
+    @property
+    def duration(self) -> float:
+        """From the first to the last time."""
+        return float(np.ptp(self.curve.times))
+
+    def _moved(self, steps: Array) -> States:
+        return self.curve.moved(States(*(np.repeat(array, len(steps), axis=0) for array in self.state)), steps)
+
+    def chi_squares(self, steps: Array) -> Array:
+        """χ² of steps in rows."""
+        return self.curve.chi_squares(self._moved(steps))
+
+    def derivatives(self, steps: Array) -> tuple[Array, Array]:
+        """Residuals (measured minus model) over σ of steps in rows, and their derivatives with respect to the steps."""
+        there = self._moved(steps)
+        parts = self.curve.in_chunks(there, self.curve.residuals)
+        residuals, slopes = (np.concatenate(arrays) for arrays in zip(*parts))
+        jacobian = -np.swapaxes(slopes, 1, 2)
+        jacobian[..., :3] = jacobian[..., :3] @ right_jacobian(steps[:, :3])
+        jacobian[..., 3 : len(self.curve.columns) - 2 * self.curve.shape] *= (np.linalg.norm(self.state.rates) / np.linalg.norm(there.rates, axis=1))[
+            :, None, None
+        ]
+        return residuals, jacobian
+
+
+@dataclass(frozen=True, eq=False)
+class Light:
+    """The model of the brightness at any times."""
+
+    data: Data
+    seen: Seen
+
+    def at(self, times: Any, sun: ArrayLike | None, observer: ArrayLike | None, label: Any) -> Array:
+        """Magnitudes or intensities as of the data, at their times (None) or at others."""
+        curve, state = self.data.curve, self.seen.state
+        value, factors, _, _ = curve.model(state)
+        if times is None:
+            return self.data.photometry.as_given((factors @ curve.members.T) * value)
+        at = np.atleast_1d(from_epoch("times", times, self.data.epoch, 0.0 if hasattr(self.data.epoch, "jd1") else float(self.data.epoch)))
+        if at.ndim != 1 or not np.isfinite(at).all():
+            raise refusal("times", at.shape, "(n,)", f"has shape {at.shape}: it must be finite times, shape (n,)")
+        order = np.argsort(curve.times, kind="stable")
+        inside = (at >= curve.times.min()) & (at <= curve.times.max())
+        sides = []
+        for argument, given, own in (("sun", sun, curve.sun), ("observer", observer, curve.observer)):
+            if given is not None:
+                vectors = np.broadcast_to(shaped(argument, given, (3,), (len(at), 3)), (len(at), 3))
+            elif own.shape[1] == 1:
+                vectors = np.broadcast_to(own.T, (len(at), 3))
+            elif not inside.all():
+                raise refusal(argument, None, "directions", "must be given for times outside the data")
+            else:
+                vectors = np.stack([np.interp(at, curve.times[order], axis[order]) for axis in own], axis=1)
+            sides.append(vectors)
+        labels = np.unique(self.data.labels)
+        places = np.flatnonzero(labels == label) if label is not None else np.array([0])
+        if len(places) != 1:
+            raise refusal("curve", label, labels.tolist(), f"= {label!r}: it must be one of {labels.tolist()}")
+        directions = [vectors.T for vectors in unit_vectors(*sides)]
+        light = replace(
+            curve, times=at, brightness=np.ones(len(at)), weights=np.ones(len(at)), sun=directions[0], observer=directions[1], members=np.ones((len(at), 1))
+        )
+        seen, _, _, _ = light.model(state)
+        zero = self.data.photometry.zero
+        photometry = Photometry(seen, seen, None if zero is None else np.full(len(at), zero[self.data.labels == labels[places[0]]][0]))
+        return photometry.as_given(factors[places[0]] * seen)
+
+
+def confused(curve: Curve) -> Array:
+    """Shifts of the frequency of rotation, which is half that of the brightness, that the gaps between nights confuse: ±½ and ±1 cycle a gap."""
+    times = np.sort(curve.times)
+    steps = np.diff(times)
+    long = steps > 10 * max(float(np.median(steps)), 0.0)
+    if not long.any():
+        return np.zeros(0)
+    starts = times[np.concatenate([[True], long])]
+    gap = float(np.min(np.diff(starts)))
+    return np.array([-1.0, -0.5, 0.5, 1.0]) / gap
