@@ -13,26 +13,26 @@ use crate::values::immutable;
 
 /// A table of the position of a disturbing body relative to the rotating body. Only the integrated method uses it.
 ///
-/// Between two times the position is the polynomial of degree seven through the eight nearest positions, or through the four nearest positions and velocities.
+/// Between two times the position is the polynomial of degree seven through the eight nearest positions, or that of degree eleven through the six nearest positions and velocities.
 /// `Plan.error_bound` includes the error of the interpolation, which is estimated with the two neighbouring polynomials of each interval. The span and the epoch of a scene must be within
 /// the times. A satellite's own ephemeris is the table of its primary with the signs reversed: the primary as seen from the satellite.
 ///
 /// Parameters
 /// ----------
 /// times : array_like, shape (n,), or astropy.time.Time
-///     At least eight increasing times. A Time is converted to TDB seconds since J2000. With velocities four times suffice, and a time that stands twice is the edge of two segments, each
-///     of four times or more: no polynomial passes it, so the orbit may change there.
+///     At least eight increasing times. A Time is converted to TDB seconds since J2000. With velocities two times suffice, and a time that stands twice is the edge of two segments, each
+///     of two times or more: no polynomial passes it, so the orbit may change there.
 /// positions : array_like, shape (n, 3)
 ///     Positions of the disturbing body relative to the rotating body, in inertial components and any unit of length.
 /// gm : float
 ///     G × mass of the disturbing body, in length³/time².
 /// velocities : array_like, shape (n, 3), optional
-///     Velocities of the disturbing body relative to the rotating body, in inertial components. Rows of 240 s of a low orbit give 1e-10 of the distance with them, 1e-7 without.
+///     Velocities of the disturbing body relative to the rotating body, in inertial components. Rows of 240 s of a low orbit give the attitude of a satellite over a day to 1e-12 rad with them, to 1e-7 without.
 ///
 /// Raises
 /// ------
 /// InputError
-///     Fewer than eight times, or four in a segment with velocities; times that do not increase; another number of positions or velocities; a position at the origin; a gm that is not positive;
+///     Fewer than eight times, or two in a segment with velocities; times that do not increase; another number of positions or velocities; a position at the origin; a gm that is not positive;
 ///     a value that is not finite.
 ///
 /// Examples

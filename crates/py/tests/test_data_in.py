@@ -9,8 +9,8 @@ from andoyer import Body, InputError, Orbit, Samples, Scene, TabulatedOrbit, out
 RATE = 2 * np.pi / 5700
 ORBIT = Orbit(RATE, eccentricity=0.01, inclination=1.1, node=0.3, argument_of_pericentre=0.2, semi_major_axis=6900e3)
 GM = RATE**2 * 6900e3**3
-BODY = Body([1.0, 1.5, 2.0])
-STATE = ([0.0, 0.0, 0.0, 1.0], [0.0003, -0.0011, 0.0002])
+BODY = Body([1.0, 1.05, 1.1])
+STATE = ([0.0, 0.0, 0.0, 1.0], [0.001, -0.003, 0.01])
 
 
 def rows(times, orbit=ORBIT, step=1e-3):
@@ -51,11 +51,11 @@ def angle(one, other):
 def test_rows_of_240_s_with_velocities_give_the_attitude_to_1e_8():
     times = np.linspace(0, 86400, 200)
     options = {"span": (0, 86400), "tolerance": 1e-8}
-    truth = Scene(BODY, *STATE, orbit=ORBIT, method="integrated", **options | {"tolerance": 1e-12}).solve().attitude(times)
+    truth = Scene(BODY, *STATE, orbit=ORBIT, method="integrated", **options | {"tolerance": 1e-11}).solve().attitude(times)
     motion = Scene(BODY, *STATE, orbit=table(240.0), **options).solve()
     error = angle(motion.attitude(times), truth).max()
     assert error < motion.plan.error_bound < 1e-8
-    with pytest.warns(andoyer.ToleranceWarning):
+    with pytest.warns(andoyer.ToleranceWarning, match="interpolation"):
         without = Scene(BODY, *STATE, orbit=table(240.0, velocities=False), **options).solve()
     assert angle(without.attitude(times), truth).max() > 20 * error
 
@@ -63,7 +63,7 @@ def test_rows_of_240_s_with_velocities_give_the_attitude_to_1e_8():
 @pytest.mark.parametrize("step", [60.0, 420.0, 900.0])
 def test_the_bound_is_above_the_error_of_any_step(step):
     times = np.linspace(-3000, 40000, 100)
-    truth = Scene(BODY, *STATE, orbit=ORBIT, method="integrated", span=(-3000, 40000)).solve().attitude(times)
+    truth = Scene(BODY, *STATE, orbit=ORBIT, method="integrated", span=(-3000, 40000), tolerance=1e-11).solve().attitude(times)
     motion = Scene(BODY, *STATE, orbit=table(step), span=(-3000, 40000), tolerance=0.1).solve()
     assert angle(motion.attitude(times), truth).max() < motion.plan.error_bound
 
@@ -103,8 +103,8 @@ def test_a_table_with_velocities_is_copied_and_read():
         (lambda t, p, v: (t, p, v[:-1]), "velocities"),
         (lambda t, p, v: (t, p, np.where(np.arange(len(t))[:, None] == 3, np.nan, v)), r"velocities\[3\]"),
         (lambda t, p, v: (np.sort(t)[::-1], p, v), r"times\[1\]"),
-        (lambda t, p, v: (np.where(np.arange(len(t)) == 2, t[1], t), p, v), "times"),
-        (lambda t, p, v: (t[:3], p[:3], v[:3]), "times"),
+        (lambda t, p, v: (t[:1], p[:1], v[:1]), "times"),
+        (lambda t, p, v: (np.where(np.arange(len(t)) == 9, t[8], t), p, v), "times"),
     ],
 )
 def test_a_wrong_row_is_named(change, message):

@@ -263,7 +263,7 @@ def test_shape_is_written_and_read_back(tmp_path, angles):
 
 def test_shape_of_a_tensor_is_about_principal_axes(tmp_path):
     time = pytest.importorskip("astropy.time").Time("2020-01-01T00:00:00", scale="utc")
-    scene = Scene(Body.from_inertia([[2, 0.3, 0], [0.3, 3, 0.1], [0, 0.1, 4]]), [0.1, 0.2, 0.3, 0.9], [1e-4, 2e-4, 3e-4], epoch=time)
+    scene = Scene(Body.from_inertia([[2, 0.3, 0], [0.3, 3, 0.1], [0, 0.1, 4]]), [0.1, 0.2, 0.3, 0.86**0.5], [1e-4, 2e-4, 3e-4], epoch=time)
     write_shape(tmp_path / "out.mod", scene)
     again = read_shape(tmp_path / "out.mod")
     # Angular velocity and energy in inertial components do not depend on the axes of the body.

@@ -18,11 +18,11 @@ use crate::numerics::kept::KeptForms;
 
 /// Divisors below this part of the largest frequency end a normal form: the estimate refuses larger ones that are too small.
 const SMALLEST_DIVISOR: f64 = 1e-9;
-/// A motion about the resonance is unstable in the plane of the orbit, out of it, or both.
+/// The periodic motion is unstable in the plane of the orbit, out of it, or both.
 pub(super) const UNSTABLE: [&str; 3] = [
-    "grow in each orbit: unstable in the orbit's plane, stable out of it",
-    "grow in each orbit: stable in the orbit's plane, unstable out of it",
-    "grow in each orbit: unstable in the orbit's plane and out of it",
+    "grow in each orbit, in its plane: the motion is unstable",
+    "grow in each orbit, out of its plane: the motion is unstable",
+    "grow in each orbit, in its plane and out of it: the motion is unstable",
 ];
 /// Most harmonics of a phase.
 const HARMONICS: usize = 252;

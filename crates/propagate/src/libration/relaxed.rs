@@ -107,7 +107,7 @@ fn normal_of(
             angles[mode] += turn;
             worst = worst.max((ratio - 1.0).abs()).max(1.0 - turn.cos());
         }
-        if worst < 1e-14 {
+        if worst < 1e-12 {
             return Ok(Some(normal));
         }
     }

@@ -34,6 +34,10 @@ const NEAR: f64 = 0.1;
 const LARGEST_RESIDUAL: f64 = 0.03;
 /// Fractions of the tolerance for dropped terms: of the Fourier series that is inserted into the equations of motion, and of that of the result.
 const DROPPED: [f64; 2] = [1e-3, 0.1];
+/// A multiplier of a stable motion exceeds 1 by less.
+const STABLE: f64 = 1e-6;
+const OUT_OF_PLANE: &str = "stable in the orbit's plane, unstable out of it";
+const IN_BOTH: &str = "unstable in the orbit's plane and out of it";
 /// Harmonics below this fraction of the tolerance are never formed.
 const NEGLIGIBLE: f64 = 1e-7;
 /// The libration of a body locked to an orbit: its proper modes and its terms, in the frame that turns with the resonance.
@@ -94,16 +98,25 @@ pub(super) fn in_two(lock: &Lock) -> String {
 /// Why a resonance has no form.
 pub(super) fn refusal(lock: &Lock, error: &SeriesError) -> String {
     let about = in_two(lock);
-    match error {
-        SeriesError::MultiplierUnsupported { multipliers, problem } if form::UNSTABLE.contains(problem) => {
-            let how = problem.rsplit(": ").next().unwrap_or_default();
-            let largest = multipliers.iter().map(|[re, im]| re.hypot(*im)).fold(1.0, f64::max);
-            let time = Short::rounded(TAU / (lock.mean_motion * largest.ln()), 3);
-            let orbits = Short::rounded(1.0 / largest.ln(), 3);
-            format!("the resonance {about} is {how}: a small angle grows by a factor e in {time} units of time ({orbits} orbits)")
-        }
-        error => format!("about the resonance {about}, {error}"),
-    }
+    let SeriesError::MultiplierUnsupported { multipliers, problem } = error else {
+        return format!("about the resonance {about}, {error}");
+    };
+    let largest = |of: &[[f64; 2]]| of.iter().map(|[re, im]| re.hypot(*im)).fold(1.0, f64::max);
+    // The first pair is that of the longitude, unless the plane of the orbit couples it to the pole.
+    let stable = |of: &[[f64; 2]]| largest(of) < 1.0 + STABLE;
+    let how = match form::UNSTABLE.iter().position(|known| known == problem) {
+        Some(kind) => ["unstable in the orbit's plane, stable out of it", OUT_OF_PLANE, IN_BOTH][kind],
+        None if multipliers.len() != 6 || stable(multipliers) => return format!("about the resonance {about}, {error}"),
+        None if lock.shape.is_tilted() => "unstable",
+        None => match (stable(&multipliers[..2]), stable(&multipliers[2..])) {
+            (true, _) => OUT_OF_PLANE,
+            (_, true) => "unstable in the orbit's plane, stable out of it",
+            _ => IN_BOTH,
+        },
+    };
+    let rate = largest(multipliers).ln();
+    let (orbits, time) = (Short::rounded(1.0 / rate, 3), Short::rounded(TAU / (lock.mean_motion * rate), 3));
+    format!("the resonance {about} is {how}: a small angle grows by a factor e in {time} units of time ({orbits} orbits)")
 }
 
 fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libration, String>, SeriesError> {

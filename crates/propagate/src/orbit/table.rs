@@ -1,9 +1,9 @@
 //! The position of a disturbing body as a table of times and vectors.
 //!
-//! Between two times the position is a polynomial of degree seven: through the eight nearest positions, or, where the table has velocities, through the four nearest positions and
-//! their velocities (Hermite). Two equal times of a table with velocities are the edge of two segments, and no polynomial passes it. The error bound of a motion contains the
+//! Between two times the position is a polynomial: of degree seven through the eight nearest positions, or, where the table has velocities, of degree eleven through the six nearest
+//! positions and their velocities (Hermite), and through fewer rows in a segment that has no more. Two equal times of a table with velocities are the edge of two segments, and no polynomial passes it. The error bound of a motion contains the
 //! interpolation error, which is estimated with the polynomials through rows that begin one earlier and one later. Where the eighth derivative is constant, they differ
-//! from the polynomial by 2 to 2.7 times its error (with velocities by 1.8 times, in the mean over an interval), in the direction of the error. Where the polynomials do not converge,
+//! from the polynomial by 2 to 2.7 times its error (with velocities by 1.3 times, in the mean over an interval), in the direction of the error. Where the polynomials do not converge,
 //! because a pericentre lies between few times, all of them pass it far outside and agree on a torque that is too weak. A table is therefore
 //! refused if the departure in the middle of an interval is a tenth of the distance.
 
@@ -15,8 +15,12 @@ use super::elements::{POSITIVE, check};
 use crate::error::Error;
 use crate::numerics::scaling::scaled;
 
-/// Number of conditions of a polynomial: positions, or positions and velocities.
-pub(crate) const NODES: usize = 8;
+/// Positions through which a polynomial passes.
+const POSITIONS: usize = 8;
+/// Rows of positions and velocities through which a polynomial passes, and the least in a segment.
+const ROWS: [usize; 2] = [6, 2];
+/// Coefficients of a polynomial.
+pub(crate) const COEFFICIENTS: usize = 2 * ROWS[0];
 
 /// Positions of the disturbing body relative to the rotating body, in inertial components. Only the integrated method uses them.
 ///
@@ -50,12 +54,12 @@ impl TabulatedOrbit {
         Self { times, positions, velocities: None, segments: vec![0], gm }.checked()
     }
 
-    /// A table with a velocity for each time. A segment has at least four times; at the edge of two segments its time stands twice, as at a change of the orbit.
+    /// A table with a velocity for each time. A segment has at least two times, and six or more for polynomials of the full degree; at the edge of two segments its time stands twice, as at a change of the orbit.
     ///
     /// # Errors
     /// Those of [`TabulatedOrbit::new`], and
     /// - [`Error::Length`] for another number of velocities.
-    /// - [`Error::TooFew`] for a segment of fewer than four times.
+    /// - [`Error::TooFew`] for a segment of fewer than two times.
     pub fn with_velocities(
         times: Vec<f64>,
         positions: Vec<[f64; 3]>,
@@ -86,8 +90,9 @@ impl TabulatedOrbit {
             }
         }
         let ends = segments[1..].iter().copied().chain([times.len()]);
-        if let Some(found) = segments.iter().zip(ends).map(|(first, end)| end - first).find(|rows| *rows < self.rows()) {
-            return Err(Error::TooFew { argument: "times", found, least: self.rows() });
+        let least = if velocities.is_some() { ROWS[1] } else { POSITIONS };
+        if let Some(found) = segments.iter().zip(ends).map(|(first, end)| end - first).find(|rows| *rows < least) {
+            return Err(Error::TooFew { argument: "times", found, least });
         }
         for (argument, vectors) in [("positions", Some(positions)), ("velocities", velocities.as_ref())] {
             for (index, vector) in vectors.into_iter().flatten().enumerate() {
@@ -143,13 +148,8 @@ impl TabulatedOrbit {
     }
 
     /// Taylor's coefficients about a time of the polynomial through rows.
-    fn taylor(&self, rows: &Range<usize>, time: f64) -> [[f64; NODES]; 3] {
+    fn taylor(&self, rows: &Range<usize>, time: f64) -> [[f64; COEFFICIENTS]; 3] {
         taylor(rows, |row| self.times[row] - time, |row| self.positions[row], |row| Some(self.velocities.as_ref()?[row]))
-    }
-
-    /// The number of rows of a polynomial.
-    fn rows(&self) -> usize {
-        if self.velocities.is_some() { NODES / 2 } else { NODES }
     }
 
     /// The rows of the polynomial of an interval, or of the neighbour that begins one row earlier or later. At an end of a segment both neighbours are the same. A segment with no row
@@ -158,7 +158,8 @@ impl TabulatedOrbit {
         let segment = self.segments.partition_point(|first| *first <= interval);
         let first = self.segments[segment - 1];
         let end = self.segments.get(segment).copied().unwrap_or(self.times.len());
-        let rows = self.rows();
+        let most = if self.velocities.is_some() { ROWS[0] } else { POSITIONS };
+        let rows = most.min(end - first);
         let own = (interval + 1).saturating_sub(rows / 2).max(first).min(end - rows);
         let Some(earlier) = earlier else { return own..own + rows };
         let count = rows.min(end - first - 1);
@@ -221,8 +222,8 @@ pub(crate) fn taylor(
     time: impl Fn(usize) -> f64,
     position: impl Fn(usize) -> [f64; 3],
     velocity: impl Fn(usize) -> Option<[f64; 3]>,
-) -> [[f64; NODES]; 3] {
-    let (mut at, mut values) = ([0.0; NODES], [[0.0; 3]; NODES]);
+) -> [[f64; COEFFICIENTS]; 3] {
+    let (mut at, mut values) = ([0.0; COEFFICIENTS], [[0.0; 3]; COEFFICIENTS]);
     let slopes = velocity(rows.start).is_some();
     let (each, nodes) = if slopes { (2, 2 * rows.len()) } else { (1, rows.len()) };
     for i in 0..nodes {
@@ -245,7 +246,7 @@ pub(crate) fn taylor(
         }
     }
     std::array::from_fn(|axis| {
-        let mut p = [0.0; NODES];
+        let mut p = [0.0; COEFFICIENTS];
         for i in (0..nodes).rev() {
             // p ← p · (t − at) + value.
             for k in (1..nodes).rev() {

@@ -73,7 +73,7 @@ pub(super) fn start_of_one(grid: &Grid, second: &Matrix<Periodic>, going: &mut G
     }
     let (rate, course) = (grid.rates()[0], monodromy(grid, second, going)?);
     let period = 2.0 * PI / rate;
-    let multipliers = spectrum(&course[grid.times()]).unwrap_or_default();
+    let multipliers = multipliers_by_pairs(&course[grid.times()]);
     let unsupported = |problem| {
         let multipliers = multipliers.iter().map(|c| [c.re, c.im]).collect();
         Error::MultiplierUnsupported { multipliers, problem }
@@ -105,6 +105,17 @@ pub(super) fn start_of_one(grid: &Grid, second: &Matrix<Periodic>, going: &mut G
         return Err(unsupported(WITHOUT_TURN));
     }
     Ok((transposed(&columns), modes))
+}
+
+/// The multipliers; those of a first pair that nothing couples to the others come first.
+fn multipliers_by_pairs(last: &DMatrix<f64>) -> Vec<Complex<f64>> {
+    let n = last.nrows();
+    let apart = (2..n).all(|j| (0..2).all(|i| last[(i, j)] == 0.0 && last[(j, i)] == 0.0));
+    if n == 2 || !apart {
+        return spectrum(last).unwrap_or_default();
+    }
+    let blocks = [last.view((0, 0), (2, 2)), last.view((2, 2), (n - 2, n - 2))];
+    blocks.iter().flat_map(|block| spectrum(&block.clone_owned()).unwrap_or_default()).collect()
 }
 
 /// Φ(M) c e^{−λ t}, which is periodic, for a column c of the exponent λ.

@@ -341,7 +341,7 @@ def calendar(epochs: list[Epoch]) -> Any:
     return astropy.time.Time(first, second, format="jd", scale=SCALES[scales[0]], location=location)
 
 
-def later(epoch: Epoch | None, seconds: float) -> Any:
+def later(epoch: Epoch | None, seconds: float | NDArray[Any]) -> Any:
     """The Time in TDB that is some TDB seconds after an epoch, or after J2000."""
     import astropy.time
 

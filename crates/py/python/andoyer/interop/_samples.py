@@ -32,6 +32,8 @@ def from_arrays(times: Any, attitudes: Any, angular_velocity: Any, epoch: Any, s
     rates = np.full((count, 3), np.nan)
     if angular_velocity is not None:
         rates = _numbers("angular_velocity", plain("angular_velocity", angular_velocity), (count, 3), unknown=True)
+    # A norm that normalization leaves stays, so that samples of a motion keep their bits.
+    norms[np.abs(norms - 1) <= 2 * np.finfo(float).eps] = 1.0
     return samples_of(seconds, attitude / norms[:, None], rates, dates)
 
 
