@@ -141,7 +141,8 @@ impl Evolution {
             let epoch = scene.state().epoch;
             let until = epoch + left;
             let solved = scene.clone().method(Method::Integrated).tolerance(tolerance);
-            let motion: Motion = solved.span(epoch.min(until), epoch.max(until)).solve_until(&SeriesTables::default(), stop)?;
+            let motion: Motion =
+                solved.span(epoch.min(until), epoch.max(until)).solve_until(&SeriesTables::default(), stop)?;
             scene = scene.with_state(*motion.scene_at(until)?.state());
             if from_separatrix(&scene) > AWAY * distance {
                 return Ok(scene);

@@ -13,7 +13,10 @@ pub use andoyer_series::error::{Kind, Value};
 pub(crate) use duration::duration_in_words;
 #[cfg(all(test, feature = "torques"))]
 pub(crate) use sentences::STEP_BYTES;
-use sentences::{advice, and_others, because, did_you_mean, distance, elsewhere, evolve, finite, four_digits, indexed, instead_of, rounded_up, setting, slow, too_many, turn, unaveraged};
+use sentences::{
+    advice, and_others, because, did_you_mean, distance, elsewhere, evolve, finite, four_digits, indexed, instead_of,
+    rounded_up, setting, slow, too_many, turn, unaveraged,
+};
 pub use torque_measure::TorqueMeasure;
 
 const POSITIVE: &str = "positive and finite";
@@ -94,9 +97,9 @@ andoyer_series::error_table! {
         #[error("method = \"libration\": {reason}")]
         NoLibration { reason: String = "The reason." } => Theory, facts("method", "libration", "a body locked to an elliptic orbit");
 
-        /// A number that no state of a locked body has.
+        /// A number outside its bounds, alone or in an array.
         #[error("{argument}{} = {value}: it must be {bound}", indexed(*.index), value = Short(*.value))]
-        Locked {
+        Number {
             argument: &'static str = "The argument.",
             index: Option<usize> = "The index in it, if it has several numbers.",
             value: f64 = "The value.",

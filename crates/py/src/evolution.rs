@@ -245,7 +245,12 @@ impl Evolution {
             return Err(error::input("time", values.len(), 1_usize, "time must be one time".to_owned()));
         };
         if !leading.is_empty() {
-            return Err(error::input("time", values.len(), 1_usize, "time must be one time, without an axis".to_owned()));
+            return Err(error::input(
+                "time",
+                values.len(),
+                1_usize,
+                "time must be one time, without an axis".to_owned(),
+            ));
         }
         let phases = array::fixed("phases", phases)?;
         let scene = detached(py, error::propagation, || self.evolution.motion_at(time, phases))?;

@@ -94,7 +94,9 @@ impl Scene {
         let argument = if foreign::holds_units(attitude)? { "angles" } else { "attitude" };
         let (attitude, scalar_first) = foreign::attitudes("attitude", attitude, scalar_first)?;
         let mut numbers = array::numbers_of(argument, &attitude)?;
-        if let [_, _, _, _] = numbers[..] && scalar_first {
+        if let [_, _, _, _] = numbers[..]
+            && scalar_first
+        {
             numbers.rotate_left(1);
         }
         if !matches!(numbers.len(), 3 | 4) {
@@ -103,7 +105,8 @@ impl Scene {
         let turn = asked.turned(&numbers).map_err(error::propagation)?;
         State::new(time, [0.0, 0.0, 0.0, 1.0], rates).map_err(error::propagation)?;
         let bodies = disturbing_bodies(orbit)?;
-        let scene = andoyer_propagate::Scene::from_orbital(of_body, bodies, &asked.frame, turn, rates.into(), relative, time);
+        let scene =
+            andoyer_propagate::Scene::from_orbital(of_body, bodies, &asked.frame, turn, rates.into(), relative, time);
         keywords.set_item("orbit", orbit)?;
         with_options(class, body, (&scene.map_err(error::propagation)?, epoch), Some(keywords))
     }
@@ -179,12 +182,7 @@ impl Rows<'_> {
 }
 
 impl Asked {
-    pub(crate) fn new(
-        elements_of: &str,
-        frame: &str,
-        sequence: &str,
-        of: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Self> {
+    pub(crate) fn new(elements_of: &str, frame: &str, sequence: &str, of: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let of = of.map_or(Ok(0), |of| whole_number("of", of, 0, usize::from(u16::MAX), Kind::Input))?;
         let elements_of = elements_of.parse().map_err(error::propagation)?;
         let frame = OrbitalFrame { elements_of, axes: frame.parse().map_err(error::propagation)?, of };
@@ -196,9 +194,12 @@ impl Asked {
         match numbers {
             &[first, second, third] => {
                 let angles = [first, second, third];
-                match angles.iter().all(|angle| angle.is_finite()) {
-                    true => Ok(self.sequence.attitude(angles)),
-                    false => Err(Error::Direction { argument: "attitude", value: angles.to_vec() }),
+                match angles.iter().position(|angle| !angle.is_finite()) {
+                    None => Ok(self.sequence.attitude(angles)),
+                    Some(index) => {
+                        let (argument, value, bound) = ("attitude", angles[index], "finite");
+                        Err(Error::Number { argument, index: Some(index), value, bound })
+                    }
                 }
             }
             &[x, y, z, w] => Ok(State::new(0.0, [x, y, z, w], [0.0; 3])?.attitude),

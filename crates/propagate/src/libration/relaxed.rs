@@ -66,8 +66,8 @@ fn of_forms(
             break;
         }
         form = form::to_order(&form, &lock.shape, order, TOLERANCE, stop)?;
-        let Some(normal) = normal_of(&form, lock, amplitudes, phases)? else { break };
-        let Ok(next) = variables(&form, &normal) else { break };
+        let Some(normal) = normal_of(&form, lock, amplitudes, phases)? else { continue };
+        let Ok(next) = variables(&form, &normal) else { continue };
         if let Some(before) = known.replace(next) {
             let further = before.iter().zip(next).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
             let diverges = further > apart;
@@ -89,7 +89,8 @@ fn normal_of(
 ) -> Result<Option<Vec<f64>>, SeriesError> {
     let (mut sizes, mut angles) = (amplitudes, phases);
     for _ in 0..STEPS {
-        let normal: Vec<f64> = sizes.iter().zip(angles).flat_map(|(r, angle)| [r * angle.sin(), r * angle.cos()]).collect();
+        let normal: Vec<f64> =
+            sizes.iter().zip(angles).flat_map(|(r, angle)| [r * angle.sin(), r * angle.cos()]).collect();
         let course = match FourierMotion::new(form, lock, &normal, 0.0) {
             Err(SeriesError::NotFinite { .. }) => return Ok(None),
             course => course?,

@@ -106,7 +106,9 @@ pub(super) fn refusal(lock: &Lock, error: &SeriesError) -> String {
     let stable = |of: &[[f64; 2]]| largest(of) < 1.0 + STABLE;
     let how = match form::UNSTABLE.iter().position(|known| known == problem) {
         Some(kind) => ["unstable in the orbit's plane, stable out of it", OUT_OF_PLANE, IN_BOTH][kind],
-        None if multipliers.len() != 6 || stable(multipliers) => return format!("about the resonance {about}, {error}"),
+        None if multipliers.len() != 6 || stable(multipliers) => {
+            return format!("about the resonance {about}, {error}");
+        }
         None if lock.shape.is_tilted() => "unstable",
         None => match (stable(&multipliers[..2]), stable(&multipliers[2..])) {
             (true, _) => OUT_OF_PLANE,
@@ -116,7 +118,9 @@ pub(super) fn refusal(lock: &Lock, error: &SeriesError) -> String {
     };
     let rate = largest(multipliers).ln();
     let (orbits, time) = (Short::rounded(1.0 / rate, 3), Short::rounded(TAU / (lock.mean_motion * rate), 3));
-    format!("the resonance {about} is {how}: a small angle grows by a factor e in {time} units of time ({orbits} orbits)")
+    format!(
+        "the resonance {about} is {how}: a small angle grows by a factor e in {time} units of time ({orbits} orbits)"
+    )
 }
 
 fn climb(lock: &Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<Result<Libration, String>, SeriesError> {

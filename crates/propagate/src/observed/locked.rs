@@ -36,7 +36,7 @@ impl Default for LockedState {
 
 impl LockedState {
     fn validate(&self) -> Result<(), Error> {
-        let refused = |argument, index, value, bound| Err(Error::Locked { argument, index, value, bound });
+        let refused = |argument, index, value, bound| Err(Error::Number { argument, index, value, bound });
         let twice = 2.0 * self.resonance;
         if twice != twice.round() || !RESONANCES.contains(&twice) {
             return refused("resonance", None, self.resonance, "1/2, 1, 3/2, 2, 5/2, 3, 7/2 or 4 rotations an orbit");
@@ -59,7 +59,7 @@ impl Scene {
     /// near the normal of the orbit, or near the stable Cassini state that is nearest to it if the node moves.
     ///
     /// # Errors
-    /// - [`Error::Locked`] for a resonance that is not ½, 1, … 4, an amplitude below 0, a number that is not finite.
+    /// - [`Error::Number`] for a resonance that is not ½, 1, … 4, an amplitude below 0, a number that is not finite.
     /// - [`Error::NoLibration`] for a resonance without a torque or a stable motion, and for amplitudes beyond the range of the series.
     /// - [`Error::Epoch`] for an epoch that is not finite; [`Error::Stopped`] when the flag is set.
     ///

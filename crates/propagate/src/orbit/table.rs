@@ -85,7 +85,11 @@ impl TabulatedOrbit {
                 return refused("times", index, time, "finite");
             }
             if index > 0 && time <= times[index - 1] && !segments.contains(&index) {
-                let bound = if velocities.is_some() { "greater than the one before it, or equal to it" } else { "greater than the one before it" };
+                let bound = if velocities.is_some() {
+                    "greater than the one before it, or equal to it"
+                } else {
+                    "greater than the one before it"
+                };
                 return refused("times", index, time, bound);
             }
         }
@@ -149,7 +153,12 @@ impl TabulatedOrbit {
 
     /// Taylor's coefficients about a time of the polynomial through rows.
     fn taylor(&self, rows: &Range<usize>, time: f64) -> [[f64; COEFFICIENTS]; 3] {
-        taylor(rows, |row| self.times[row] - time, |row| self.positions[row], |row| Some(self.velocities.as_ref()?[row]))
+        taylor(
+            rows,
+            |row| self.times[row] - time,
+            |row| self.positions[row],
+            |row| Some(self.velocities.as_ref()?[row]),
+        )
     }
 
     /// The rows of the polynomial of an interval, or of the neighbour that begins one row earlier or later. At an end of a segment both neighbours are the same. A segment with no row
@@ -176,7 +185,9 @@ impl TabulatedOrbit {
             let middle = 0.5 * self.times[interval] + 0.5 * self.times[interval + 1];
             // Squares of lengths are doubles in this unit.
             let unit = Vector3::from(self.positions[interval]).amax();
-            let at = |earlier| Vector3::from(self.taylor(&self.around(interval, earlier), middle).map(|axis| axis[0])) / unit;
+            let at = |earlier| {
+                Vector3::from(self.taylor(&self.around(interval, earlier), middle).map(|axis| axis[0])) / unit
+            };
             let own = at(None);
             let [one, other] = [true, false].map(|earlier| (at(Some(earlier)) - own).norm());
             let nearest = |end: usize| distance_of_chord(own, Vector3::from(self.positions[end]) / unit);

@@ -141,7 +141,15 @@ impl Ensemble {
                 [of_all] => of_all,
                 each => &each[index],
             };
-            Scene::from_orbital(body, disturbing.iter().cloned(), &asked.frame, turn, rates[index].into(), relative, time)
+            Scene::from_orbital(
+                body,
+                disturbing.iter().cloned(),
+                &asked.frame,
+                turn,
+                rates[index].into(),
+                relative,
+                time,
+            )
         };
         let scenes: Vec<_> = (0..members).map(scene).collect();
         let ensemble = of_scenes(scenes, (time, calendar), (threads, on_error), options, "Ensemble.from_orbital")?;
