@@ -55,3 +55,20 @@ fn the_torque_on_a_body_next_to_a_sphere_has_no_rounding_of_the_moments() {
         assert!(measured.error <= 1e-4 * measured.effect, "{level}: {measured:?}");
     }
 }
+
+#[test]
+fn two_terms_together_next_to_resonance_turn_the_phase() {
+    // 4Ω_y is 0.09 n from harmonic 49 of the orbit, and 3Ω_y 0.10 n from harmonic 29: pairs of terms with m = 2, and with m = 1 and 2.
+    let moments = [[0.999_948_7, 0.999_986_6, 1.0], [0.999_999_16, 0.999_999_72, 1.0]];
+    let attitudes = [[0.7155, 0.4742, 0.128, 0.4968], [0.4987, -0.2691, -0.5454, -0.6176]];
+    let rates = [[0.038_10, -0.121_34, -0.991_88], [0.194_372, 0.202_171, 0.959_868]];
+    let orbits = [[0.081_49, 0.7374, -66.5, 0.0, 0.0, 5.167], [0.103_06, 0.7315, -43.51, 0.0, 0.0, 3.262]];
+    for (k, attraction) in [1.8, 1.07].into_iter().enumerate() {
+        let scene = Disturbed::new(moments[k], attitudes[k], rates[k], orbits[k], 820.0);
+        for level in [Level::Full, Level::SecondOrder] {
+            let scene = Disturbed { attraction, level, averaging: Averaging::Spin, ..scene };
+            let measured = scene.measured().expect("served");
+            assert!(measured.ratio() <= 1.0, "{k} {level}: {measured:?}");
+        }
+    }
+}

@@ -69,14 +69,14 @@ impl SecondOrderData {
         let lower = EpochMean {
             mean: at(mean.p.norm_sqr() - by_sigma, mean.momentum - lacking),
             momentum: first.momentum,
-            left: first.left.map(|left| left / mean.momentum),
+            left: [0, 1].map(|i| (first.left[i] + second.swung[i]) / mean.momentum),
         };
         let by_momentum = first.momentum + second.momentum;
         let momentum = state.momentum - by_momentum;
         let higher = EpochMean {
             mean: at((state.momentum * state.p.norm_sqr() - first.action - second.action) / momentum, momentum),
             momentum: by_momentum,
-            left: [0, 1].map(|i| (first.left[i] + second.left[i]) / momentum),
+            left: [0, 1].map(|i| (first.left[i] + second.left[i] + second.swung[i]) / momentum),
         };
         Self { both: [lower, higher], steady }
     }

@@ -12,12 +12,17 @@
 //!
 //! A harmonic of the orbit near resonance is a term of its own, of frequency Ω + jn and of constant amplitude; a pair of two such terms has the divisor of both
 //! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`crate::gravity_gradient::second_order::pairs_around`]).
+//!
+//! The corrections lack χ. Where Ω_ab is small beside n, it turns the phases by ∂Ω_ab/∂M χ/Ω_ab, as the changes of M and L by the pair would in the time 1/Ω_ab.
+
+use std::collections::BTreeMap;
 
 use super::pair_harmonics::{SplitTerm, inverse, unreturned};
 use super::pair_terms::{PairTerm, SecondOrderState};
 use super::pairs_around::{PairSum, by_harmonics};
 use crate::gravity_gradient::constants::CUTOFF;
 use crate::gravity_gradient::terms::term::Term;
+use crate::numerics::C64;
 
 /// Changes of M and L at the epoch.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,7 +31,12 @@ pub(crate) struct Actions {
     pub(crate) action: f64,
     /// Errors of both.
     pub(crate) left: [f64; 2],
+    /// Parts of both by pairs next to resonance, times 1/(|Ω_ab| span): within the span they turn the phases as errors of M and L of this size do.
+    pub(crate) swung: [f64; 2],
 }
+
+/// The sources of pairs of single harmonics, by h and m, where the harmonic of the orbit in the pair is the nearest to resonance; with the least |Ω_ab|.
+type NearPairs = BTreeMap<[i32; 2], (C64, f64)>;
 
 /// δ₂M and δ₂L at a mean state of first order, from the terms, those whose divisors are exact, and the harmonics of ⟨D⟩.
 pub(crate) fn second_actions(
@@ -46,19 +56,22 @@ pub(crate) fn second_actions(
     half.iter_mut().for_each(|row| row.size /= largest);
     let rows: Vec<PairTerm> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
     let average = PairTerm::average(state);
-    let (mut actions, mut together) = (Actions::default(), Vec::new());
+    let (mut actions, mut together, mut near) = (Actions::default(), Vec::new(), NearPairs::new());
     for b in &rows {
         // The other half of the sum is its conjugate.
         for a in half.iter().filter(|a| a.size * b.size >= CUTOFF) {
-            actions.add(state, (a, b), 2.0, &mut together);
+            actions.add(state, (a, b), 2.0, (&mut together, &mut near));
         }
         if b.single {
             // The mean of ⟨D⟩ is in the divisors of harmonics near resonance.
             let others = averages.iter().filter(|average| !b.shifted || average.frequency[0] != 0.0);
-            others.for_each(|average| actions.add(state, (average, b), 1.0, &mut together));
+            others.for_each(|average| actions.add(state, (average, b), 1.0, (&mut together, &mut near)));
         } else {
-            actions.add(state, (&average, b), 1.0, &mut together);
+            actions.add(state, (&average, b), 1.0, (&mut together, &mut near));
         }
+    }
+    for ([h, m], (source, frequency)) in near {
+        actions.swing([h, m].map(f64::from), (source.norm(), frequency), state.disturbance.duration);
     }
     let (served, others): (Vec<_>, Vec<_>) = together.into_iter().partition(|pairs| pairs.needs(state));
     for pairs in &others {
@@ -67,9 +80,12 @@ pub(crate) fn second_actions(
     }
     if !served.is_empty() {
         let mut errors = [0.0; 2];
-        for (pairs, [part, left]) in served.iter().zip(by_harmonics(state, &half[..listed], &served, exact)) {
+        for (pairs, [part, left, nearest, distance]) in
+            served.iter().zip(by_harmonics(state, &half[..listed], &served, exact))
+        {
             let [h, m] = pairs.numbers.map(f64::abs);
             actions.change(pairs.numbers, part, 0.0);
+            actions.swing(pairs.numbers, (nearest, distance), state.disturbance.duration);
             errors = [errors[0] + m * left, errors[1] + h * left];
         }
         actions.left = [0, 1].map(|i| actions.left[i].hypot(errors[i]));
@@ -84,7 +100,7 @@ impl Actions {
         state: &SecondOrderState<'_>,
         (a, b): (&PairTerm, &PairTerm),
         factor: f64,
-        together: &mut Vec<PairSum>,
+        (together, near): (&mut Vec<PairSum>, &mut NearPairs),
     ) {
         let (torque, wave) = (&a.torque, &b.generator);
         let both = 0.5 * factor * state.bracket(a, &a.generator[0], b, &wave[0]).im;
@@ -99,6 +115,14 @@ impl Actions {
         if a.single && b.single {
             let duration = state.disturbance.duration;
             let left = source.norm() * unreturned(frequency, duration);
+            if frequency.abs() <= 0.5 * state.disturbance.mean_motion {
+                let [h, m] = numbers.map(|number| number as i32); // sums of two h and of two m
+                let opposite = m < 0 || m == 0 && h < 0;
+                let key = if opposite { [-h, -m] } else { [h, m] };
+                let (sum, least) = near.entry(key).or_insert((C64::default(), f64::INFINITY));
+                *sum += if opposite { source.conj() } else { source };
+                *least = least.min(frequency.abs());
+            }
             return self.change(numbers, -source.re * inverse(frequency, duration), left);
         }
         let change = (state.bracket(a, &torque[1], b, &wave[0]) + state.bracket(a, &torque[0], b, &wave[1])) * factor;
@@ -109,6 +133,13 @@ impl Actions {
         } else {
             pair.join(together);
         }
+    }
+
+    /// Adds the swing of M and L by all pairs of one h and m, from the size of their source and their frequency.
+    fn swing(&mut self, [h, m]: [f64; 2], (source, frequency): (f64, f64), duration: f64) {
+        let distance = frequency.abs().max(f64::MIN_POSITIVE);
+        let swung = source * inverse(distance, duration) * (1.0 / (distance * duration)).min(1.0);
+        self.swung = [self.swung[0] + m.abs() * swung, self.swung[1] + h.abs() * swung];
     }
 
     /// Adds h and m times a part to the changes of L and M, and times its error to their errors. The phases of the pairs are independent: the squares of the

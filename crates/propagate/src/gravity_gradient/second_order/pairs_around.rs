@@ -139,13 +139,13 @@ fn even(eccentricity: f64, count: f64) -> Vec<(f64, f64)> {
     (0..count as usize).map(point).collect()
 }
 
-/// The real part of −iχ of the pairs of these terms with each of these totals, and its error.
+/// The real part of −iχ of the pairs of these terms with each of these totals, its error, and |R_j| and Ω + jn of the harmonic nearest to resonance.
 pub(crate) fn by_harmonics(
     state: &SecondOrderState<'_>,
     listed: &[PairTerm],
     totals: &[PairSum],
     exact: &[SplitTerm],
-) -> Vec<[f64; 2]> {
+) -> Vec<[f64; 4]> {
     let highest = totals.iter().filter_map(|total| highest(state, total.frequency)).fold(0.0, f64::max);
     let points = even(state.disturbance.orbit.eccentricity(), points_for(highest));
     let sources = sources(state, (listed, totals), exact, &points);
@@ -153,7 +153,7 @@ pub(crate) fn by_harmonics(
     let turn = |j: i32| points.iter().map(move |(l, _)| C64::from_polar(1.0, f64::from(j) * (l - state.anomaly)));
     let steps: Vec<C64> = turn(-1).collect();
     let sum = |(total, source): (&PairSum, &Vec<C64>)| {
-        let (mut sum, mut left) = (0.0, 0.0);
+        let (mut sum, mut left, mut nearest) = (0.0, 0.0, [0.0, f64::INFINITY]);
         let waves = turn(highest).zip(&points).zip(source).map(|((turn, (_, weight)), value)| value * turn * weight);
         let mut waves: Vec<C64> = waves.collect();
         for j in -highest..=highest {
@@ -161,10 +161,13 @@ pub(crate) fn by_harmonics(
             let divisor = total.frequency + f64::from(j) * state.disturbance.mean_motion;
             let part = harmonic * inverse(divisor, state.disturbance.duration);
             sum -= part.re;
+            if divisor.abs() <= 0.5 * state.disturbance.mean_motion {
+                nearest = [harmonic.norm(), divisor];
+            }
             left += SOURCE_CHANGE * part.norm() + harmonic.norm() * unreturned(divisor, state.disturbance.duration);
             waves.iter_mut().zip(&steps).for_each(|(wave, step)| *wave *= step);
         }
-        [sum, left]
+        [sum, left, nearest[0], nearest[1]]
     };
     totals.iter().zip(&sources).map(sum).collect()
 }
