@@ -97,7 +97,7 @@ impl Evolution {
                 None => found.push((mode, sense, 1, scene)),
             }
         }
-        found.sort_by(|one, other| other.2.cmp(&one.2));
+        found.sort_by_key(|one| std::cmp::Reverse(one.2));
         let [first, last] = self.span();
         let evolved = |(mode, sense, count, scene): (Mode, f64, usize, Scene)| {
             let time = scene.state().epoch;

@@ -211,7 +211,11 @@ REFUSED = [
     ("far", {"attitude": angles(0.8, 0, 0)}, "46 degrees"),
     # A rotation at the rate of the resonance is no swing of a neighbouring one.
     ("farther", {"body": andoyer.Body([0.3615, 0.4265, 0.5024]), "attitude": angles(1.0, 0, 0), "eccentricity": 0.0151}, "57 degrees from the resonance 1"),
-    ("elongated", {"body": andoyer.Body([0.5, 0.75, 1.0]), "orbit": andoyer.Orbit(1.0, 0.3)}, "the resonance 1 is unstable in the orbit's plane and out of it: a small angle grows by a factor e in 5.61"),
+    (
+        "elongated",
+        {"body": andoyer.Body([0.5, 0.75, 1.0]), "orbit": andoyer.Orbit(1.0, 0.3)},
+        "the resonance 1 is unstable in the orbit's plane and out of it: a small angle grows by a factor e in 5.61",
+    ),
 ]
 
 

@@ -90,7 +90,11 @@ REFUSED = {
     "no table": ("x.csv", b"t,qx\n1,two\n", "must be a table in CSV"),
     "missing columns": ("x.csv", b"t,qx\n1,2\n", "must have the columns t,.*: qy, qz, qw missing"),
     "ragged": ("x.csv", b"t,qx,qy\n1,2\n", "as many numbers in a line as names in the first: 2 and 3"),
-    "not finite": ("x.csv", b"t,qx,qy,qz,qw,wx,wy,wz\n0,0,0,0,1,0,0,0\n1,0,0,0,nan,0,0,0\n", "must hold finite numbers, or NaN for all rates of a row: row 2 does not"),
+    "not finite": (
+        "x.csv",
+        b"t,qx,qy,qz,qw,wx,wy,wz\n0,0,0,0,1,0,0,0\n1,0,0,0,nan,0,0,0\n",
+        "must hold finite numbers, or NaN for all rates of a row: row 2 does not",
+    ),
     "no archive": ("x.npz", b"PK\x03\x04 and more", "must be an NPZ"),
     "no parquet": ("x.parquet", b"PAR1", "must be a Parquet table|pyarrow"),
 }

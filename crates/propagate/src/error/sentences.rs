@@ -50,7 +50,7 @@ pub(super) fn setting(epoch: f64, span: Option<[f64; 2]>) -> String {
     format!("the epoch is {}{}; ", Short(epoch), span.unwrap_or_default())
 }
 
-/// "[2]" after the name of an array, or nothing after that of a number.
+/// `[2]` after the name of an array, or nothing after that of a number.
 pub(super) fn indexed(index: Option<usize>) -> String {
     index.map(|index| format!("[{index}]")).unwrap_or_default()
 }

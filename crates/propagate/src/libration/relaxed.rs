@@ -16,6 +16,8 @@ use crate::error::Error;
 
 /// The tolerance of the normal form \[rad\].
 const TOLERANCE: f64 = 1e-12;
+/// Of the amplitudes the part with which the steps to them begin.
+const SMALL: f64 = 1e-6;
 /// Most steps to the amplitudes.
 const STEPS: usize = 30;
 /// Two orders whose states differ by the first part of the largest amplitude give it; by more than the second, they are no series.
@@ -87,7 +89,8 @@ fn normal_of(
     amplitudes: [f64; 3],
     phases: [f64; 3],
 ) -> Result<Option<Vec<f64>>, SeriesError> {
-    let (mut sizes, mut angles) = (amplitudes, phases);
+    // Small ones first: where the series is linear, they have the scale.
+    let (mut sizes, mut angles) = (amplitudes.map(|amplitude| SMALL * amplitude), phases);
     for _ in 0..STEPS {
         let normal: Vec<f64> =
             sizes.iter().zip(angles).flat_map(|(r, angle)| [r * angle.sin(), r * angle.cos()]).collect();
