@@ -263,7 +263,8 @@ impl Scene {
     ///
     /// Examples
     /// --------
-    /// >>> scene = Scene.locked(Body([0.3, 0.35, 0.4]), Orbit(1.0, eccentricity=0.02), amplitudes=[0.01, 0, 0], tolerance=1e-9)
+    /// >>> options = {"method": "libration", "tolerance": 1e-6, "span": (0, 50)}
+    /// >>> scene = Scene.locked(Body([0.3, 0.35, 0.4]), Orbit(1.0, eccentricity=0.02), amplitudes=[0.01, 0, 0], **options)
     /// >>> scene.solve().libration.amplitudes.round(9)
     /// array([0.01, 0.  , 0.  ])
     #[classmethod]

@@ -56,7 +56,7 @@ def test_axes_in_any_order_and_a_tensor_give_one_motion():
     times = np.linspace(0, 20, 5)
     turn = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0]
     body = Body.from_inertia(turn @ np.diag([0.3, 0.35, 0.4]) @ turn.T)
-    options = {"method": "libration", "tolerance": 1e-9, "span": (0, 20), "amplitudes": [0.1, 0, 0.05]}
+    options = {"method": "libration", "tolerance": 1e-9, "span": (0, 20), "amplitudes": [0.05, 0, 0.02]}
     one, other = (Scene.locked(of, ORBIT, **options).solve() for of in (BODY, body))
     momenta = [motion.angular_momentum(times) for motion in (one, other)]
     assert np.abs(momenta[0] - momenta[1]).max() < 1e-9

@@ -52,13 +52,9 @@ fn of_forms(
     stop: &AtomicBool,
 ) -> Result<Option<[f64; 6]>, SeriesError> {
     let mut form = form::periodic(&lock.shape, TOLERANCE, MOST_WORK, stop)?;
-    let driven = lock.shape.driven(lock.start);
-    let variables = |form: &DrivenForm, normal: &[f64]| {
-        let found = form.at(&driven).from_normal(normal)?;
-        Ok::<[f64; 6], SeriesError>(std::array::from_fn(|slot| found[slot]))
-    };
     if amplitudes == [0.0; 3] {
-        return variables(&form, &[0.0; 6]).map(Some);
+        let state = form.at(&lock.shape.driven(lock.start)).from_normal(&[0.0; 6])?;
+        return Ok(Some(std::array::from_fn(|slot| state[slot])));
     }
     let largest = amplitudes.into_iter().fold(0.0, f64::max);
     let (mut known, mut apart, mut work): (Option<[f64; 6]>, f64, f64) = (None, f64::INFINITY, 0.0);
@@ -68,8 +64,8 @@ fn of_forms(
             break;
         }
         form = form::to_order(&form, &lock.shape, order, TOLERANCE, stop)?;
-        let Some(normal) = normal_of(&form, lock, amplitudes, phases)? else { continue };
-        let Ok(next) = variables(&form, &normal) else { continue };
+        let Some(course) = course_of(&form, lock, amplitudes, phases)? else { continue };
+        let [next, _] = course.at_even_times(0.0, 0.0, 1)[0];
         if let Some(before) = known.replace(next) {
             let further = before.iter().zip(next).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
             let diverges = further > apart;
@@ -82,13 +78,13 @@ fn of_forms(
     Ok(known.filter(|_| apart < SAME[1] * largest))
 }
 
-/// The normal variables whose proper modes have these amplitudes and phases; none if the steps do not end.
-fn normal_of(
+/// The series whose proper modes have these amplitudes and phases; none if the steps do not end.
+fn course_of(
     form: &DrivenForm,
     lock: &Lock,
     amplitudes: [f64; 3],
     phases: [f64; 3],
-) -> Result<Option<Vec<f64>>, SeriesError> {
+) -> Result<Option<FourierMotion>, SeriesError> {
     // Small ones first: where the series is linear, they have the scale.
     let (mut sizes, mut angles) = (amplitudes.map(|amplitude| SMALL * amplitude), phases);
     for _ in 0..STEPS {
@@ -112,7 +108,7 @@ fn normal_of(
             worst = worst.max((ratio - 1.0).abs()).max(1.0 - turn.cos());
         }
         if worst < 1e-12 {
-            return Ok(Some(normal));
+            return Ok(Some(found.course));
         }
     }
     Ok(None)
