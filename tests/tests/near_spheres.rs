@@ -1,6 +1,6 @@
 //! The gravity gradient to second order for bodies next to a sphere, where ℓ′ hardly turns within the span, against integrations of the full equations.
 
-use andoyer_propagate::nalgebra::{UnitQuaternion, Vector3};
+use andoyer_propagate::nalgebra::{UnitQuaternion, Vector3, Vector4};
 use andoyer_propagate::options::{Averaging, Level};
 use andoyer_tests::climb::{Family, Uniform};
 use andoyer_tests::disturbed::Disturbed;
@@ -64,7 +64,8 @@ fn two_terms_together_next_to_resonance_turn_the_phase() {
     let rates = [[0.038_10, -0.121_34, -0.991_88], [0.194_372, 0.202_171, 0.959_868]];
     let orbits = [[0.081_49, 0.7374, -66.5, 0.0, 0.0, 5.167], [0.103_06, 0.7315, -43.51, 0.0, 0.0, 3.262]];
     for (k, attraction) in [1.8, 1.07].into_iter().enumerate() {
-        let scene = Disturbed::new(moments[k], attitudes[k], rates[k], orbits[k], 820.0);
+        let attitude = Vector4::from(attitudes[k]).normalize().into();
+        let scene = Disturbed::new(moments[k], attitude, rates[k], orbits[k], 820.0);
         for level in [Level::Full, Level::SecondOrder] {
             let scene = Disturbed { attraction, level, averaging: Averaging::Spin, ..scene };
             let measured = scene.measured().expect("served");
