@@ -423,11 +423,11 @@ def tables(lines):
                 print(f"  {name:16s} {counts}  | {sum(line[f'right {part}'] == '1' for line in of_group)} of {len(of_group)}")
 
 
-COLUMNS = (
-    "seed|class|kind|shape|law|nights|points|span [h]|noise [mag]|signal to noise|starts|true mode|true P_φ [h]|true P_ψ [h]|true longitude [°]|true latitude [°]|best mode|P_φ [h]|P_ψ [h]|"
-    "pole apart [°]|pole σ [°]|right periods|right pole|right mode|verdict periods|verdict pole|verdict mode|secure is right|reduced χ²|χ²|χ² from truth|minima|truth is minimum|truth Δχ²|"
-    "processor [s]|error"
-).split("|")
+COLUMNS = [
+    "seed", "class", "kind", "shape", "law", "nights", "points", "span [h]", "noise [mag]", "signal to noise", "starts", "true mode", "true P_φ [h]", "true P_ψ [h]",
+    "true longitude [°]", "true latitude [°]", "best mode", "P_φ [h]", "P_ψ [h]", "pole apart [°]", "pole σ [°]", *(f"right {part}" for part in PARTS), *(f"verdict {part}" for part in PARTS),
+    "secure is right", "reduced χ²", "χ²", "χ² from truth", "minima", "truth is minimum", "truth Δχ²", "processor [s]", "error",
+]  # fmt: skip
 
 
 def main(count, seed, out, starts=STARTS):
