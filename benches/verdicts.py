@@ -411,7 +411,7 @@ def tables(lines):
         "class": lambda line: line["class"],
         "nights": lambda line: next(f"{low:2d} to {high:2d}" for low, high in ((3, 4), (5, 7), (8, 10)) if int(line["nights"]) <= high),
         "signal to noise": lambda line: next(
-            name for high, name in ((3, " below 3"), (10, " 3 to 10"), (np.inf, "above 10")) if float(line["signal to noise"]) < high
+            name for high, name in ((3, " 0 to  3"), (10, " 3 to 10"), (np.inf, "above 10")) if float(line["signal to noise"]) < high
         ),
     }
     for part in PARTS:
