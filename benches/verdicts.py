@@ -13,7 +13,6 @@ rotation is compared: for a fit in the short-axis mode this is P_φ about the lo
 
 import argparse
 import csv
-import inspect
 import re
 import time
 from pathlib import Path
@@ -333,20 +332,17 @@ def agreement(state, deviation, truth):
 def truth_in(verdict, fit, truth):
     """Whether periods, pole and mode of the best state are right, and, under "secure", whether each of them that the verdict calls secure is right."""
     right, _ = agreement(state_of(fit.scene), pole_deviation(fit), truth)
-    secure = [part for part in PARTS if getattr(verdict, part, None) == "secure"]
+    secure = [part for part in PARTS if getattr(verdict, part) == "secure"]
     return right | {"secure": all(right[part] for part in secure)}
 
 
 def fitted(data, axes=None, **options):
-    """The fit of a data set; with intensities as long as the library takes no magnitudes."""
+    """The fit of a data set."""
     from andoyer import fit
 
     given = {name: data[name] for name in ("sun", "observer", "curves")} | {"shape": True} | options
     axes = data["axes"] if axes is None else axes
-    if "magnitudes" in inspect.signature(fit.light_curve).parameters:
-        return fit.light_curve(axes, data["times"], magnitudes=data["magnitudes"], sigma=data["sigma"], **given)
-    values = 10 ** (-0.4 * (data["magnitudes"] - 15))
-    return fit.light_curve(axes, data["times"], values, sigma=0.4 * np.log(10) * values * data["sigma"], **given)
+    return fit.light_curve(axes, data["times"], magnitudes=data["magnitudes"], sigma=data["sigma"], **given)
 
 
 def from_truth(data):
@@ -378,7 +374,7 @@ def row(seed, starts):
         found = fitted(data, periods=data["periods"], starts=starts, rng=seed)
     except Error as error:
         return line | {"processor [s]": f"{time.process_time() - begin:.1f}", "error": str(error)}
-    verdict = getattr(found, "verdict", None)
+    verdict = found.verdict
     processor = time.process_time() - begin
     state, deviation = state_of(found.scene), pole_deviation(found)
     apart = agreement(state, deviation, truth)[1]
@@ -391,10 +387,11 @@ def row(seed, starts):
     least = found.chi_square
     return line | {
         "best mode": state[0], "P_φ [h]": f"{state[1][0]:.6g}", "P_ψ [h]": f"{state[1][1]:.6g}", "pole apart [°]": f"{apart:.2f}", "pole σ [°]": f"{deviation:.3g}",
-        **{f"right {part}": int(right[part]) for part in PARTS}, **{f"verdict {part}": getattr(verdict, part, "") for part in PARTS}, "secure is right": int(right["secure"]),
+        **{f"right {part}": int(right[part]) for part in PARTS}, **{f"verdict {part}": getattr(verdict, part) for part in PARTS}, "secure is right": int(right["secure"]),
         "reduced χ²": f"{found.reduced_chi_square:.4g}", "χ²": f"{least:.2f}", "χ² from truth": f"{from_truth(data):.2f}", "minima": len(found.optima),
         "truth is minimum": places[0] + 1 if places else "", "truth Δχ²": f"{found.optima[places[0]].chi_square - least:.2f}" if places else "",
-        "processor [s]": f"{processor:.1f}", "error": "",
+        **{f"margin {part}": f"{margin:.4g}" for part, margin in zip(PARTS, verdict.margins)}, "reached": verdict.reached,
+        "chance": f"{found.simple_rotation.probability:.3g}", "processor [s]": f"{processor:.1f}", "error": "",
     }  # fmt: skip
 
 
@@ -426,7 +423,7 @@ def tables(lines):
 COLUMNS = [
     "seed", "class", "kind", "shape", "law", "nights", "points", "span [h]", "noise [mag]", "signal to noise", "starts", "true mode", "true P_φ [h]", "true P_ψ [h]",
     "true longitude [°]", "true latitude [°]", "best mode", "P_φ [h]", "P_ψ [h]", "pole apart [°]", "pole σ [°]", *(f"right {part}" for part in PARTS), *(f"verdict {part}" for part in PARTS),
-    "secure is right", "reduced χ²", "χ²", "χ² from truth", "minima", "truth is minimum", "truth Δχ²", "processor [s]", "error",
+    "secure is right", "reduced χ²", "χ²", "χ² from truth", "minima", "truth is minimum", "truth Δχ²", *(f"margin {part}" for part in PARTS), "reached", "chance", "processor [s]", "error",
 ]  # fmt: skip
 
 

@@ -65,6 +65,10 @@ class Verdict:
     """The same of the direction of the angular momentum."""
     mode: str
     """The same of the mode: "short-axis", "long-axis" or "principal-axis"."""
+    margins: tuple[float, float, float]
+    """Scaled Δχ² of the next minimum with other periods, another pole, another mode; infinite without one."""
+    reached: int
+    """Starts that led to the best minimum."""
     sentence: str
 
     def __str__(self) -> str:
@@ -133,26 +137,42 @@ def judge(evidence: Evidence) -> Verdict:
     """The verdict."""
     best = evidence.optima[0]
     by = scale(evidence)
-    near = [optimum for optimum in evidence.optima if (optimum.chi_square - best.chi_square) / by < NEAR]
-    pairs, poles = [best.periods], [best.direction]
-    for optimum in near[1:]:
-        if all(turns(optimum.periods, pair, evidence.duration) > HALF_TURN for pair in pairs):
-            pairs.append(optimum.periods)
-        if all(np.arccos(np.clip(optimum.direction @ pole, -1, 1)) > SEPARATE for pole in poles):
-            poles.append(optimum.direction)
+    margins = [(optimum.chi_square - best.chi_square) / by for optimum in evidence.optima]
+    pairs, poles, modes = [best.periods], [best.direction], {best.mode}
+    first = [np.inf, np.inf, np.inf]
+    for optimum, margin in zip(evidence.optima[1:], margins[1:]):
+        others = (
+            all(turns(optimum.periods, pair, evidence.duration) > HALF_TURN for pair in pairs),
+            all(np.arccos(np.clip(optimum.direction @ pole, -1, 1)) > SEPARATE for pole in poles),
+            optimum.mode != best.mode,
+        )
+        first = [min(known, margin) if other else known for known, other in zip(first, others)]
+        if margin >= NEAR:
+            if np.isfinite(first).all():
+                break
+            continue
+        pairs += [optimum.periods] * others[0]
+        poles += [optimum.direction] * others[1]
+        modes.add(optimum.mode)
     seen = (evidence.constant - best.chi_square) / by > NEAR * (6 if best.mode != "principal-axis" else 4)
     found = evidence.reached >= REACHED
     periods = _of(len(pairs), seen, found)
     pole = _of(len(poles), seen and periods != LOST, found)
     simple = simple_rotation(evidence)
-    modes = {optimum.mode for optimum in near}
     if simple is not None and simple.probability > CHANCE:
         modes.add("principal-axis")
     mode = _of(len(modes), seen, found)
     if mode == AMBIGUOUS and periods == SECURE and "principal-axis" in modes and best.mode != "principal-axis":
         # The periods of a tumbler that may not tumble.
         periods = AMBIGUOUS
-    return Verdict(periods, pole, mode, _sentence(evidence, (periods, pole, mode), (len(pairs), len(poles)), sorted(modes), simple))
+    return Verdict(
+        periods,
+        pole,
+        mode,
+        (first[0], first[1], first[2]),
+        evidence.reached,
+        _sentence(evidence, (periods, pole, mode), (len(pairs), len(poles)), sorted(modes), simple),
+    )
 
 
 def _of(count: int, seen: bool, found: bool) -> str:
