@@ -19,15 +19,19 @@ use crate::torque_free::mode::Mode;
 use crate::torque_free::series::tables::SeriesTables;
 
 /// Members start where the averages have so many changes of a wobble left to the separatrix, and at least this fraction of its excess.
-const BEFORE: f64 = 8.0;
+const BEFORE: f64 = 20.0;
 const LEAST: f64 = 1e-6;
 /// A member that is nearer to the separatrix after its integration than this part of the distance at its start is integrated further, so many times at most.
 const AWAY: f64 = 0.5;
 const FURTHER: usize = 12;
 /// The tolerance of the integrations \[rad\], or less where the distance needs it.
 const TOLERANCE: f64 = 1e-6;
-/// Two numbers whose multiples fill a square evenly (the plastic number).
-const EVEN: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
+/// Wobbles over which the starts of the members are spread.
+const SPREAD: f64 = 8.0;
+/// Steps from the averaged state to one whose average it is.
+const CORRECTIONS: usize = 3;
+/// Three numbers whose multiples fill a cube evenly: powers of the root of x⁴ = x + 1.
+const EVEN: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_1];
 
 /// What becomes of some of the phases.
 #[derive(Clone, Debug)]
@@ -43,13 +47,26 @@ pub struct Crossing {
 }
 
 impl Evolution {
-    /// A scene of the averaged state at a time with given phases \[turns\], as of [`ObservedPeriods::phases`]: torques, orbits and options are those of the evolution's scene, without a span.
+    /// A scene at a time with given phases \[turns\], as of [`ObservedPeriods::phases`], whose averaged motion this is: torques, orbits and options are those of the evolution's scene, without a
+    /// span. What the averages leave out at these phases is added to their momentum and energy.
     ///
     /// # Errors
     /// - As [`Evolution::at`]; [`Error::PeriodRatio`] for a state so near the separatrix that a double does not hold it; [`Error::Direction`] for phases that are not finite.
     pub fn motion_at(&self, time: f64, phases: [f64; 2]) -> Result<Scene, Error> {
-        let [state] = self.at(&[time])?[..] else { unreachable!("one time") };
-        self.scene_of(&state, phases)
+        let [mean] = self.at(&[time])?[..] else { unreachable!("one time") };
+        let (momentum, excess) = (Vector3::from(mean.momentum), mean.excess);
+        let (mut own, mut above) = (momentum, excess);
+        let mut scene = self.scene_of(&mean, phases)?;
+        for _ in 0..CORRECTIONS {
+            // Beside the separatrix the corrections are larger than the distance from it: the averaged state stays.
+            let Ok((found, its_excess)) = self.mean_of(&scene) else { break };
+            (own, above) = (own + momentum - found, (above + excess - its_excess).max(0.0));
+            match self.scene_of(&self.evolved(time, &own, above), phases) {
+                Ok(next) => scene = next,
+                Err(_) => break,
+            }
+        }
+        Ok(scene)
     }
 
     fn scene_of(&self, state: &Evolved, phases: [f64; 2]) -> Result<Scene, Error> {
@@ -74,7 +91,7 @@ impl Evolution {
     }
 
     /// What becomes of it beyond the separatrix: for each mode and sense that members with evenly spread phases reach, its probability and the averaged motion of one of them up to the end of
-    /// the span. An evolution that ends otherwise is its own, with the probability 1.
+    /// the span. Starts are spread over some wobbles, too. An evolution that ends otherwise is its own, with the probability 1.
     ///
     /// # Errors
     /// - Those of [`Scene::solve`] and [`Scene::evolve`]; [`Error::NotAveraged`] if a member stays at the separatrix.
@@ -85,12 +102,16 @@ impl Evolution {
             return Ok(vec![Crossing { probability: 1.0, mode, sense, evolution: self.clone() }]);
         }
         let (start, distance, wobble) = self.before(end.time)?;
-        let state = self.at(&[start])?[0];
         let origin = (seed as f64 * 0.618_033_988_749_894_9).fract();
+        // The energy changes in steps of a wobble, so that starts at one time would not mix: they are spread over some wobbles.
+        let epoch = self.scene().state().epoch;
+        let earliest = start - (SPREAD * wobble).min((start - epoch).abs()).copysign(end.time - start);
         let mut found: Vec<(Mode, f64, usize, Scene)> = Vec::new();
         for member in 0..members {
-            let phases = EVEN.map(|step| (origin + (member as f64 + 0.5) * step).fract());
-            let scene = self.passed(self.scene_of(&state, phases)?, (end.time - start, distance, wobble), stop)?;
+            let [first, second, third] = EVEN.map(|step| (origin + (member as f64 + 0.5) * step).fract());
+            let from = start + third * (earliest - start);
+            let scene = self.motion_at(from, [first, second])?;
+            let scene = self.passed(scene, (end.time - from, distance, wobble), stop)?;
             let (mode, sense) = (mode_of(&scene)?, sense_of(&scene));
             match found.iter_mut().find(|one| (one.0, one.1) == (mode, sense)) {
                 Some(one) => one.2 += 1,

@@ -220,7 +220,7 @@ impl Evolution {
         bands.as_flattened().to_vec().into_pyarray(py).reshape([&leading[..], &[2]].concat())
     }
 
-    /// A scene of the averaged state at a time: torques, orbits and options are those of `scene`, without a span. Of the phases nothing is known, so they are given.
+    /// A scene at a time whose averaged motion this is: torques, orbits and options are those of `scene`, without a span. Of the phases nothing is known, so they are given; what the averages leave out at these phases is added to them.
     ///
     /// Parameters
     /// ----------
@@ -262,7 +262,7 @@ impl Evolution {
     /// Parameters
     /// ----------
     /// members : int, optional
-    ///     Number of members: a probability p is known to about √(p(1 − p)/members), and better since the phases are spread evenly.
+    ///     Number of members: a probability p has the standard deviation √(p(1 − p)/members) at most.
     /// seed : int, optional
     ///     Another seed shifts the phases.
     ///
@@ -284,12 +284,15 @@ impl Evolution {
         seed: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Vec<(f64, Self)>> {
         let number = |name, value: Option<&Bound<'_, PyAny>>, least, default| {
-            value.map_or(Ok(default), |value| whole_number(name, value, least, 1 << 30, Kind::Input))
+            value.map_or(Ok(default), |value| whole_number(name, value, least, 1 << 30, Kind::Input)).and_then(|number| match (least..=1 << 30).contains(&number) {
+                true => Ok(number),
+                false => {
+                    let text = format!("{name} = {number}: it must be a whole number from {least} to {}", 1 << 30);
+                    Err(error::input(name, number, least, text))
+                }
+            })
         };
         let (members, seed) = (number("members", members, 1, 64)?, number("seed", seed, 0, 0)?);
-        if members == 0 {
-            return Err(error::input("members", 0_usize, 1_usize, "members = 0: it must be 1 or more".to_owned()));
-        }
         let pass = |stop: &std::sync::atomic::AtomicBool| self.evolution.through(members, seed as u64, stop);
         let passages = interruptible(py, true, error::propagation, pass)?;
         let of = |passage: evolutions::Crossing| {

@@ -6,7 +6,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::equations::{AveragedTorques, Rates, Scratch, sorted_axes};
 use super::polhode_means::{ExcessPolhode, ModeFamily};
-use super::short_period::sorted_attitude;
+use super::short_period::{ShortPeriod, sorted_attitude};
 use super::sources::MovingSource;
 use super::weakness::Weakness;
 use crate::error::Error;
@@ -94,6 +94,13 @@ impl AveragedScene {
         Weakness::of(&problem.equations, problem.equations.epoch, size, &mut Scratch::default())?.validate()?;
         problem.choose(average)?;
         Ok(problem)
+    }
+
+    /// The mean angular momentum and excess at the epoch: without the part that the averages leave out.
+    pub(super) fn mean(&self) -> Result<(Vector3<f64>, f64), Error> {
+        let state = (&self.momentum, self.excess);
+        let short = ShortPeriod::new(&self.equations, self.equations.epoch, state)?;
+        Ok(short.mean(&self.attitude, &self.momentum))
     }
 
     /// Decides which sources are averaged over their orbits.

@@ -121,6 +121,16 @@ impl Evolution {
         &self.scene
     }
 
+    /// The averaged state of a scene of the same body and torques at its epoch.
+    pub(crate) fn mean_of(&self, scene: &Scene) -> Result<(Vector3<f64>, f64), Error> {
+        AveragedScene::new(scene, self.average())?.mean()
+    }
+
+    /// What follows from an angular momentum and an excess of energy at a time.
+    pub(crate) fn evolved(&self, time: f64, momentum: &Vector3<f64>, excess: f64) -> Evolved {
+        self.problem.evolved(time, momentum, excess)
+    }
+
     /// The largest relative error of a step of the integration.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
@@ -228,9 +238,7 @@ impl Scene {
         }
         let problem = AveragedScene::new(self, options.average)?;
         let unit = problem.momentum.norm();
-        // The mean state at the epoch: without the part that the averages leave out.
-        let short = ShortPeriod::new(&problem.equations, epoch, (&problem.momentum, problem.excess))?;
-        let (momentum, excess) = short.mean(&problem.attitude, &problem.momentum);
+        let (momentum, excess) = problem.mean()?;
         let k = momentum / unit;
         let node = Node { time: epoch, state: [k.x, k.y, k.z, excess] };
         let (equations, longest) = (&problem.equations, problem.longest_step());

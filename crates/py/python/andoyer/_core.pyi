@@ -675,7 +675,7 @@ class Evolution:
     def band(self, times: Any) -> _Array:
         """What the averages leave out at times: root mean square over the phases of the short-period parts."""
     def motion_at(self, time: float | Any, phases: ArrayLike) -> Scene:
-        """A scene of the averaged state at a time: torques, orbits and options are those of `scene`, without a span. Of the phases nothing is known, so they are given."""
+        """A scene at a time whose averaged motion this is: torques, orbits and options are those of `scene`, without a span. Of the phases nothing is known, so they are given; what the averages leave out at these phases is added to them."""
     def through(self, members: int = 64, seed: int = 0) -> list[tuple[float, Evolution]]:
         """What becomes of it beyond the separatrix, where the mode depends on phases that the averages have lost: members with evenly spread phases pass it by the full equations, and each outcome goes on in averages."""
     @property
