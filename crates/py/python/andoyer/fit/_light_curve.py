@@ -23,7 +23,7 @@ from andoyer.fit._result import Fit, Photometric, judged
 from andoyer.fit._scattering import axes_of, law
 from andoyer.fit._search import Population, at_other_rates, best, improve, random_spins, random_states, reflections, search
 from andoyer.fit._steps import Steps, moments_of_ellipsoid
-from andoyer.fit._verdict import REACHED, Evidence, judge, simple_rotation
+from andoyer.fit._verdict import REACHED, Evidence, judge, scale, simple_rotation
 from andoyer.interop._foreign import as_one, epoch_of, has_units
 
 POLISHED = 32
@@ -349,7 +349,7 @@ def _result(data: Data, found: Found, hypothesis: tuple[Data, Found] | None, del
         _warn_of_magnitudes(curve.brightness, best.chi_square, fit.degrees_of_freedom)
     message = composed(best.chi_square, fit.degrees_of_freedom, ADVICE, lost, rivals(minima, evidence.duration))
     light = Light(data, fit._model)  # type: ignore[arg-type]
-    photometric = Photometric(zero_points, judge(evidence), simple_rotation(evidence), light.at)
+    photometric = Photometric(zero_points, judge(evidence), simple_rotation(evidence), light, scale(evidence))
     return replace(fit, message=message, optima=optima, _photometric=photometric)
 
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from andoyer._core import Scene
 from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.fit._curve import Curve, States
 from andoyer.fit._given import from_epoch, from_first, shaped
-from andoyer.fit._magnitudes import Photometry, emitted
+from andoyer.fit._magnitudes import POGSON, Photometry, emitted
 from andoyer.fit._magnitudes import photometry as photometry_of
 from andoyer.fit._rotations import right_jacobian
 from andoyer.fit._scattering import unit_vectors
@@ -86,6 +86,31 @@ class Seen:
         return residuals, jacobian
 
 
+LONG = 10
+"""A step of more than so many median steps is a gap between nights."""
+SHORTEST = 6 * 3600.0
+"""And more than so many seconds, where the times have units."""
+PER_TURN, FEWEST, MOST = 32, 200, 4000
+"""Times of the model for each turn of the body, and the fewest and most of a night; a night with more turns has the model at its points alone."""
+
+
+class Night(NamedTuple):
+    """The points of a night and the model, as given, in order of time."""
+
+    label: float
+    """Of the curve."""
+    first: int
+    """The place of the first point among the data."""
+    since: Array
+    """Times since the first point, in the unit of the data."""
+    measured: Array
+    sigma: Array
+    residuals: Array
+    fine: Array
+    """Times of the model since the first point."""
+    model: Array
+
+
 @dataclass(frozen=True, eq=False)
 class Light:
     """The model of the brightness at any times."""
@@ -96,12 +121,48 @@ class Light:
     def at(self, times: Any, sun: ArrayLike | None, observer: ArrayLike | None, label: Any) -> Array:
         """Magnitudes or intensities as of the data, at their times (None) or at others."""
         curve, state = self.data.curve, self.seen.state
-        value, factors, _, _ = curve.model(state)
         if times is None:
+            value, factors, _, _ = curve.model(state)
             return self.data.photometry.as_given((factors @ curve.members.T) * value)
         at = np.atleast_1d(from_epoch("times", times, self.data.epoch, 0.0 if hasattr(self.data.epoch, "jd1") else float(self.data.epoch)))
         if at.ndim != 1 or not np.isfinite(at).all():
             raise refusal("times", at.shape, "(n,)", f"has shape {at.shape}: it must be finite times, shape (n,)")
+        return self._since(at, sun, observer, label)
+
+    def nights(self, count: int, units: bool) -> tuple[list[Night], int]:
+        """The first nights, at most so many, and the number of all. `units`: the times are in seconds."""
+        curve, photometry = self.data.curve, self.data.photometry
+        measured, model = photometry.as_given(curve.brightness), self.at(None, None, None, None)
+        sigma = photometry.sigma if photometry.zero is None else POGSON * photometry.sigma / curve.brightness
+        parts = []
+        for label in np.unique(self.data.labels):
+            points = np.flatnonzero(self.data.labels == label)
+            points = points[np.argsort(curve.times[points], kind="stable")]
+            parts += [(label, part) for part in np.split(points, 1 + np.flatnonzero(gaps(curve.times[points], SHORTEST if units else 0.0)))]
+        parts.sort(key=lambda part: float(curve.times[part[1][0]]))
+        found = []
+        for label, part in parts[:count]:
+            at = curve.times[part]
+            wanted = PER_TURN * np.ptp(at) * float(np.linalg.norm(self.seen.state.rates)) / (2 * np.pi)
+            fine = at if wanted > MOST or len(at) == 1 else np.linspace(at[0], at[-1], max(FEWEST, int(wanted)))
+            found.append(
+                Night(
+                    label=float(label),
+                    first=int(part[0]),
+                    since=at - at[0],
+                    measured=measured[part],
+                    sigma=sigma[part],
+                    residuals=(measured - model)[part],
+                    fine=fine - at[0],
+                    model=self._since(fine, None, None, label),
+                )
+            )
+        return found, len(parts)
+
+    def _since(self, at: Array, sun: ArrayLike | None, observer: ArrayLike | None, label: Any) -> Array:
+        """The model at times since the epoch."""
+        curve, state = self.data.curve, self.seen.state
+        _, factors, _, _ = curve.model(state)
         order = np.argsort(curve.times, kind="stable")
         inside = (at >= curve.times.min()) & (at <= curve.times.max())
         sides = []
@@ -129,11 +190,17 @@ class Light:
         return photometry.as_given(factors[places[0]] * seen)
 
 
+def gaps(times: Array, shortest: float = 0.0) -> NDArray[np.bool_]:
+    """Of each step between ordered times, whether it is a gap between nights."""
+    steps = np.diff(times)
+    long: NDArray[np.bool_] = steps > max(LONG * float(np.median(steps)) if len(steps) else 0.0, shortest)
+    return long
+
+
 def confused(curve: Curve) -> Array:
     """Shifts of the frequency of rotation, which is half that of the brightness, that the gaps between nights confuse: ±½ and ±1 cycle a gap."""
     times = np.sort(curve.times)
-    steps = np.diff(times)
-    long = steps > 10 * max(float(np.median(steps)), 0.0)
+    long = gaps(times)
     if not long.any():
         return np.zeros(0)
     starts = times[np.concatenate([[True], long])]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,10 +17,11 @@ from andoyer.fit._draws import Model, candidates
 from andoyer.fit._given import generator_of, whole_number
 from andoyer.fit._magnitudes import ZeroPoints
 from andoyer.fit._members import members
+from andoyer.fit._observed import Light
 from andoyer.fit._optimum import Alias, Optimum, aliases, free_motion
 from andoyer.fit._steps import Steps
 from andoyer.fit._summary import described
-from andoyer.fit._verdict import SimpleRotation, Verdict
+from andoyer.fit._verdict import NEAR, SimpleRotation, Verdict
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,8 +50,10 @@ class Photometric:
     zero_points: ZeroPoints
     verdict: Verdict
     simple_rotation: SimpleRotation | None
-    model: Callable[..., Array]
-    """Brightnesses at times, from directions to Sun and observer, of a curve."""
+    light: Light
+    """The data with their model."""
+    scale: float
+    """By what the verdict divides differences of χ²."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -152,7 +154,7 @@ class Fit:
             Times outside the data without directions; a curve that does not exist.
         """
         if self._photometric is not None:
-            return self._photometric.model(times, sun, observer, curve)
+            return self._photometric.light.at(times, sun, observer, curve)
         attitudes: Array = self.scene.solve().attitude(self.times if times is None else times)
         return attitudes
 
@@ -237,7 +239,7 @@ class Fit:
         lines = [
             ("reduced χ²", f"{self.reduced_chi_square:.4g}  (χ² {self.chi_square:.6g}, {self.degrees_of_freedom} degrees of freedom)"),
             ("mode", f"{free_motion(self.scene).plan.mode}  (state at the epoch {self.scene.epoch:g})"),
-            *described(self._steps, self.covariance, self.undetermined),
+            *((quantity.name, str(quantity)) for quantity in described(self._steps, self.covariance, self.undetermined)),
         ]
         if len(self.optima) > 1:
             lines.append(("minima", f"{len(self.optima)}, the second with Δχ² {self.optima[1].chi_square - self.optima[0].chi_square:.3g}"))
@@ -253,17 +255,85 @@ class Fit:
         title = f"Fit of {len(self.parameters)} parameters ({', '.join(self.parameters)}) to {self.residuals.size} data"
         return "\n".join([title, *(f"  {name:<15} {text}" for name, text in lines), self.message])
 
-    def corner(self, figure: Figure | None = None) -> Figure:
-        """Draws the ellipses of one and two standard deviations of every pair of free parameters. Needs matplotlib.
+    def corner(self, figure: Figure | None = None, *, quantities: bool = False) -> Figure:
+        """Draws the ellipses of one and two standard deviations of every pair of free parameters, or of quantities. Needs matplotlib.
 
         Parameters
         ----------
         figure : matplotlib.figure.Figure, optional
             By default a new one.
-        """
-        from andoyer.fit._pictures import corner
+        quantities : bool, optional
+            If True, the quantities of `print(fit)` are drawn instead of the parameters, each with its value, standard deviation and unit: periods, pole, phases, and the moments or axis ratios
+            that are free. Those that are held or not determined are left out. Their covariance is to first order. Periods have the unit of the times; with units of astropy they are in s, h or d.
 
-        return corner(self.parameters, self.covariance, figure)
+        Raises
+        ------
+        InputError
+            `quantities` is neither True nor False, or the data determine no quantity.
+        """
+        from andoyer.fit._pictures import corner, quantity_corner
+
+        if not isinstance(quantities, (bool, np.bool_)):
+            raise refusal("quantities", repr(quantities), "True or False", f"= {quantities!r}: it must be True or False")
+        if not quantities:
+            return corner(self.parameters, self.covariance, figure)
+        found = [quantity for quantity in described(self._steps, self.covariance, self.undetermined) if quantity.free]
+        if not found:
+            raise refusal("quantities", True, "False", "= True: the data determine no period, pole or phase; the corner of the parameters remains")
+        return quantity_corner(found, self.times, figure)
+
+    def light_curve_picture(self, figure: Figure | None = None) -> Figure:
+        """Draws the measured points of each night with their standard deviations, the model between them, and the residuals below. Needs matplotlib.
+
+        A curve is parted into nights at gaps of more than ten times the median step, and with units of time of more than six hours too. The first twelve nights are drawn. Magnitudes are
+        drawn with the bright end up.
+
+        Parameters
+        ----------
+        figure : matplotlib.figure.Figure, optional
+            By default a new one.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            With two axes for each night.
+
+        Raises
+        ------
+        InputError
+            A fit of attitudes.
+        """
+        from andoyer.fit._pictures import nights_picture
+
+        return nights_picture(self._light("light_curve_picture").light, figure)
+
+    def rivals_picture(self, axes: Axes | None = None) -> Axes:
+        """Draws Δχ² of every minimum in `optima` against its precession period P_φ, and the simple rotation against its period. Needs matplotlib.
+
+        Filled markers are minima that the verdict counts as rivals, whose Δχ² over its scale is below 16. Δχ² below 0.1 is drawn at 0.1.
+
+        Parameters
+        ----------
+        axes : matplotlib.axes.Axes, optional
+            By default those of a new figure.
+
+        Raises
+        ------
+        InputError
+            A fit of attitudes.
+        """
+        from andoyer.fit._pictures import Minimum, minima_picture
+
+        photometric = self._light("rivals_picture")
+        minima = [Minimum(optimum.mode, optimum.periods.precession, optimum.delta_chi_square) for optimum in self.optima]
+        if self.simple_rotation is not None:
+            minima.append(Minimum("principal-axis", self.simple_rotation.period, self.simple_rotation.delta_chi_square))
+        return minima_picture(minima, NEAR * photometric.scale, self.times, axes)
+
+    def _light(self, method: str) -> Photometric:
+        if self._photometric is None:
+            raise refusal("fit", "of attitudes", "of light curves", f"is of attitudes: {method} draws a fit of light curves")
+        return self._photometric
 
     def residual_picture(self, axes: Axes | None = None) -> Axes:
         """Draws the residuals against time. Needs matplotlib.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from andoyer._core import Error, Scene
@@ -37,31 +39,60 @@ def _quantities(scene: Scene, semi_axes: Array | None, simple: bool) -> dict[str
     return values
 
 
-def described(steps: Steps, covariance: Array, undetermined: Array) -> list[tuple[str, str]]:
-    """Each quantity of the state that the steps begin at, with its value and its standard deviation from the covariance of the free parameters.
+class Quantity(NamedTuple):
+    """A quantity of the best state."""
+
+    name: str
+    value: float
+    slopes: Array
+    """Derivatives along the columns of a square root of the covariance: the covariance of two quantities is the product of theirs."""
+    lost: bool
+    """Whether the data do not determine it."""
+
+    @property
+    def deviation(self) -> float:
+        """The standard deviation; NaN where it is not known."""
+        return float(np.linalg.norm(self.slopes))
+
+    @property
+    def unit(self) -> str:
+        """The unit after a number: of angles."""
+        return "°" if self.name in ANGLES else ""
+
+    @property
+    def held(self) -> bool:
+        """Whether no free parameter changes it."""
+        return self.deviation <= 1e-14 * abs(self.value)
+
+    @property
+    def free(self) -> bool:
+        """Whether it has a value and a standard deviation above 0."""
+        return bool(np.isfinite(self.value) and np.isfinite(self.deviation)) and not self.lost and not self.held
+
+    def __str__(self) -> str:
+        if not np.isfinite(self.value):
+            return "none"
+        if self.lost:
+            return "not determined"
+        if not np.isfinite(self.deviation):
+            return f"{self.value:.6g}{self.unit}"
+        return f"{self.value:.6g}{self.unit}  (held)" if self.held else with_deviation(self.value, self.deviation, self.unit)
+
+
+def described(steps: Steps, covariance: Array, undetermined: Array) -> list[Quantity]:
+    """Each quantity of the state that the steps begin at, with its derivatives and what the covariance of the free parameters says of it.
 
     `undetermined`: the directions of steps that the data do not determine, shape (d, k).
     """
     values = _quantities(steps.origin, steps.semi_axes, "spin" in steps.free)
-    deviations = _slopes(steps, root(covariance, steps), list(values))
+    slopes = _slopes(steps, root(covariance, steps), list(values))
     lost = _slopes(steps, undetermined.T, list(values))
-    lines = []
+    found = []
     for name, value in values.items():
-        deviation = float(np.linalg.norm(deviations[name]))
-        unit = "°" if name in ANGLES else ""
         # The moments keep their common factor, which the message names.
-        if not np.isfinite(value):
-            text = "none"
-        elif not name.startswith(("moment", "axis")) and _is_lost(name, deviation, float(np.linalg.norm(lost[name]))):
-            text = "not determined"
-        elif not np.isfinite(deviation):
-            text = f"{value:.6g}{unit}"
-        elif deviation <= 1e-14 * abs(value):
-            text = f"{value:.6g}{unit}  (held)"
-        else:
-            text = _with_deviation(value, deviation, unit)
-        lines.append((name, text))
-    return lines
+        gone = not name.startswith(("moment", "axis")) and _is_lost(name, float(np.linalg.norm(slopes[name])), float(np.linalg.norm(lost[name])))
+        found.append(Quantity(name, value, slopes[name], gone))
+    return found
 
 
 def _is_lost(name: str, deviation: float, lost: float) -> bool:
@@ -98,7 +129,7 @@ def _axes(steps: Steps, step: Array) -> Array | None:
     return None if steps.semi_axes is None else steps.axes(step)
 
 
-def _with_deviation(value: float, deviation: float, unit: str) -> str:
+def with_deviation(value: float, deviation: float, unit: str) -> str:
     """A value and its standard deviation to two digits, both with as many decimals."""
     decimals = max(0, 1 - int(np.floor(np.log10(deviation))))
     if decimals > 15:
