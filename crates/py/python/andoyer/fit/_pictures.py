@@ -165,7 +165,7 @@ def nights_picture(light: Light, figure: "Figure | None") -> "Figure":
         if magnitudes and lower is not None:
             lower.invert_yaxis()
         figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside upper right", ncols=2, fontsize="small")
-        figure.align_ylabels()
+        figure.align_ylabels([axes for axes in figure.axes if axes.get_ylabel()])
         figure.supxlabel(f"{unit} since the start of the night", fontsize=STYLE["font.size"])
         if count > len(nights):
             figure.suptitle(f"The first {len(nights)} of {count} nights: {count - len(nights)} are not drawn", fontsize=STYLE["axes.titlesize"])
