@@ -55,6 +55,7 @@ class Curve:
     times: Array
     """Since the epoch."""
     brightness: Array
+    """Intensities, or with `logarithms` their natural logarithms."""
     weights: Array
     """1/σ², shape (n,)."""
     sun: Array
@@ -65,6 +66,8 @@ class Curve:
     scattering: str
     shape: bool
     """Whether the axis ratios are free."""
+    logarithms: bool = False
+    """Whether differences of logarithms are fitted: magnitudes, whose factors are then weighted means."""
     spin: int | None = None
     """The body axis of a simple rotation, about which alone the body turns; None for any motion."""
 
@@ -88,6 +91,8 @@ class Curve:
         """Apply `task` to parts of the states, on one thread for each core; the list of results."""
         count = max(1, POINTS_AT_ONCE // len(self.times))
         parts = [states.part(slice(start, start + count)) for start in range(0, len(states.axes), count)]
+        if len(parts) == 1:
+            return [task(parts[0])]
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             return list(pool.map(task, parts))
 
@@ -103,14 +108,21 @@ class Curve:
     def _chi_squares(self, states: States) -> Array:
         attitudes = self._ensemble(states).attitude(self.times)
         value = with_derivatives(*self._seen(states, attitudes), self.scattering, derivatives=False).value
-        factors = self.factors(value) @ self.members.T
-        chi_squares: Array = ((self.brightness - factors * value) ** 2) @ self.weights
+        chi_squares: Array = self._left(value) ** 2 @ self.weights
         return chi_squares
 
     def factors(self, value: Array) -> Array:
         """The factor of each curve, shape (m, c)."""
+        if self.logarithms:
+            return np.exp((self.weights * (self.brightness - np.log(value))) @ self.members / (self.weights @ self.members))
         factors: Array = (self.weights * self.brightness * value) @ self.members / ((self.weights * value * value) @ self.members)
         return factors
+
+    def _left(self, value: Array) -> Array:
+        """Data less the model with the best factors."""
+        factors = self.factors(value) @ self.members.T
+        left: Array = self.brightness - np.log(factors * value) if self.logarithms else self.brightness - factors * value
+        return left
 
     def _normal(self, states: States) -> Normal:
         residuals, jacobian = self.residuals(states)
@@ -121,16 +133,18 @@ class Curve:
     def residuals(self, states: States) -> tuple[Array, Array]:
         """Residuals over σ, shape (m, n), and the derivatives of the model over σ, shape (m, k, n), with respect to steps."""
         value, by_step, factors = self._model(states)
-        along = self._along(value, by_step) @ self.members.T
-        spread = (factors @ self.members.T) * np.sqrt(self.weights)
-        jacobian = (by_step - along * value[:, None]) * spread[:, None]
-        return self.brightness * np.sqrt(self.weights) - spread * value, jacobian
+        relative, along = self._relative(value, by_step)
+        size = np.sqrt(self.weights) if self.logarithms else (factors @ self.members.T) * value * np.sqrt(self.weights)
+        jacobian = (relative - along @ self.members.T) * (size if self.logarithms else size[:, None])
+        return self._left(value) * np.sqrt(self.weights), jacobian
 
     def model(self, state: States) -> tuple[Array, Array, Array, Array]:
-        """Of one state the brightness without a factor, shape (n,), the factors, shape (c,), their derivatives by a step, shape (k, c), and their variances at a fixed state."""
+        """Of one state the brightness without a factor, shape (n,), the factors, shape (c,), the derivatives of their logarithms by a step, shape (k, c), and the variances of these at a fixed
+        state."""
         value, by_step, factors = self._model(state)
-        slopes = -self._along(value, by_step) * factors[:, None]
-        return value[0], factors[0], slopes[0], 1 / ((self.weights * value[0] * value[0]) @ self.members)
+        _, along = self._relative(value, by_step)
+        weights = self.weights if self.logarithms else self.weights * (factors[0] @ self.members.T * value[0]) ** 2
+        return value[0], factors[0], -along[0], 1 / (weights @ self.members)
 
     def _model(self, states: States) -> tuple[Array, Array, Array]:
         """Brightnesses, their derivatives by a step, shape (m, k, n), and the factors of the curves."""
@@ -145,11 +159,12 @@ class Curve:
             by_step = np.concatenate([by_step, by_shape], axis=1)
         return found.value, by_step[:, self.columns], self.factors(found.value)
 
-    def _along(self, value: Array, by_step: Array) -> Array:
-        """Derivatives of the logarithms of the brightnesses, in the mean over each curve, shape (m, k, c)."""
-        weighted = self.weights * value
-        along: Array = ((by_step * weighted[:, None]) @ self.members) / ((weighted * value) @ self.members)[:, None]
-        return along
+    def _relative(self, value: Array, by_step: Array) -> tuple[Array, Array]:
+        """Derivatives of the logarithms of the brightnesses, shape (m, k, n), and their means over each curve, shape (m, k, c), which the factors take up."""
+        relative = by_step / value[:, None]
+        weights = np.broadcast_to(self.weights, value.shape) if self.logarithms else self.weights * value * value
+        along: Array = ((relative * weights[:, None]) @ self.members) / (weights @ self.members)[:, None]
+        return relative, along
 
     def _ensemble(self, states: States) -> Ensemble:
         span = (self.times.min(), self.times.max())

@@ -23,6 +23,7 @@ from andoyer.fit._result import Fit, Photometric, judged
 from andoyer.fit._scattering import axes_of, law
 from andoyer.fit._search import Population, at_other_rates, best, improve, random_spins, random_states, reflections, search
 from andoyer.fit._steps import Steps, moments_of_ellipsoid
+from andoyer.fit._summary import described
 from andoyer.fit._verdict import REACHED, Evidence, judge, scale, simple_rotation
 from andoyer.interop._foreign import as_one, epoch_of, has_units
 
@@ -32,6 +33,8 @@ SETTLING = 60
 """Steps of them all before each is polished alone."""
 FEW = 2000
 """Least number of starts of the hypothesis of simple rotation."""
+WOBBLE = 1e-3
+"""Rates across the axis, in parts of the rotation, with which a simple rotation becomes the start of a tumbling motion."""
 HYPOTHESES = 4
 """Simple rotations that are improved to the end beside a tumbling motion."""
 PRINCIPAL = "principal-axis"
@@ -88,7 +91,8 @@ def light_curve(
     curves : array_like of int, shape (n,), optional
         Number of the curve of each point, 0, 1, …; by default all points belong to one curve. Absolute magnitudes of several nights are one curve; relative ones are a curve for each night.
     distances : array_like, shape () or (n,), optional
-        Distances of the observer from the body: numbers in au, or a Quantity of astropy. The light time is then taken from `times`, which must be a Time or a Quantity.
+        Distances of the observer from the body: numbers in au, or a Quantity of astropy. The light time is then taken from `times`, which must be a Time or a Quantity. The brightnesses are not
+        changed: curves that last longer than a night are reduced to unit distances, by −5 lg(rΔ) in magnitudes.
     scattering : {"lommel-seeliger", "geometric"}, optional
         Law of scattering, as for `brightness`.
     shape : bool, optional
@@ -170,6 +174,8 @@ def light_curve(
         moments = np.sort(moments_of_ellipsoid(semi_axes))
         simple = replace(curve, spin=int(np.argmax(moments_of_ellipsoid(semi_axes))))
         rotation = _simple(simple, semi_axes, (limits[0], limits[1] * moments[2] / moments[0]), (max(FEW, count // 5), HYPOTHESES), generator)
+        if rotation.population.chi_squares[0] < found.population.chi_squares[0]:
+            found = _from_rotation(curve, found, rotation)
     return _result(data, found, (replace(data, curve=simple), rotation), largest, scale_errors)
 
 
@@ -214,6 +220,16 @@ def _difference(delta_chi_square: Any) -> float:
     if difference < 0:
         raise refusal("delta_chi_square", difference, 0.0, f"= {difference}: it must be 0 or more")
     return difference
+
+
+def _from_rotation(curve: Curve, found: Found, rotation: Found) -> Found:
+    """The minima together with the one next to the best simple rotation: a tumbling motion fits no worse than that."""
+    state = rotation.population.states.part(slice(0, 1))
+    nudged = state._replace(rates=state.rates + WOBBLE * np.linalg.norm(state.rates))
+    population = _polished(curve, improve(curve, Population(nudged, curve.chi_squares(nudged)), SETTLING))
+    kept = _distinct(curve, _joined(found.population, population))
+    order = np.argsort(kept.chi_squares, kind="stable")
+    return Found(Population(kept.states.part(order), kept.chi_squares[order]), rotation.reached)
 
 
 def _state_of(scene: Scene, axes: Array, epoch: Any) -> States:
@@ -343,6 +359,7 @@ def _result(data: Data, found: Found, hypothesis: tuple[Data, Found] | None, del
         reached=found.reached,
         simple=simple,
         constant=float(np.sum(curve.weights * curve.brightness**2) - constant),
+        undetermined=frozenset(quantity.name for quantity in described(fit._steps, fit.covariance, fit.undetermined) if quantity.lost),
         unit=" s" if hasattr(data.epoch, "jd1") or has_units(as_one("times", data.times)) else "",
     )
     if data.photometry.zero is None:
@@ -395,7 +412,7 @@ def _of_minimum(data: Data, state: States, best: Optimum, scale_errors: bool) ->
     zero_points = _zero_points(data, state, covariance / np.outer(units, units), factor)
     measured = residuals / np.sqrt(curve.weights)
     if data.photometry.zero is not None:
-        measured = data.photometry.as_given(curve.brightness) - data.photometry.as_given(curve.brightness - measured)
+        measured = -POGSON * measured
     fit = Fit(
         scene=best.scene,
         parameters=steps.labels,
@@ -417,7 +434,7 @@ def _of_minimum(data: Data, state: States, best: Optimum, scale_errors: bool) ->
 def _zero_points(data: Data, state: States, covariance: Array, factor: float) -> ZeroPoints:
     """Zero points with their errors, those of the state included: of ln s, variance at a fixed state plus its derivatives by the steps."""
     _, factors, slopes, variances = data.curve.model(state)
-    relative = (variances + np.einsum("kc,kl,lc->c", slopes, covariance, slopes)) / factors**2
+    relative = variances + np.einsum("kc,kl,lc->c", slopes, covariance, slopes)
     first = np.argmax(data.curve.members, axis=0)
     magnitude = np.zeros(len(factors)) if data.photometry.zero is None else data.photometry.zero[first]
     # The model is in units of (π/2) a³.

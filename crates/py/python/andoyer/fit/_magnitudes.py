@@ -33,12 +33,19 @@ class ZeroPoints(NamedTuple):
 
 
 class Photometry(NamedTuple):
-    """Brightnesses in intensities, with what leads back to the data as given."""
+    """Brightnesses as they are fitted, with what leads back to the data as given."""
 
     brightness: Array
+    """Intensities, or of magnitudes the logarithms of intensities near 1."""
     sigma: Array
     zero: Array | None
     """Of each point the magnitude of intensity 1; None where intensities were given."""
+
+    @property
+    def given(self) -> Array:
+        """The data as they were given."""
+        given: Array = self.brightness if self.zero is None else self.zero - POGSON * self.brightness
+        return given
 
     def as_given(self, intensities: Array) -> Array:
         """Intensities in the unit of the data."""
@@ -49,7 +56,7 @@ class Photometry(NamedTuple):
 
 
 def photometry(brightness: Any, magnitudes: Any, sigma: Any, labels: Array) -> Photometry:
-    """The intensities of brightnesses or of magnitudes, those of each curve near 1."""
+    """Intensities as given, or the logarithms of those of magnitudes: errors of magnitudes are symmetric there, and a zero point is a mean."""
     count = len(labels)
     if (brightness is None) == (magnitudes is None):
         raise refusal("magnitudes", repr(magnitudes), "one of the two", "and brightness: give one of the two")
@@ -69,8 +76,7 @@ def photometry(brightness: Any, magnitudes: Any, sigma: Any, labels: Array) -> P
     zero = np.zeros(count)
     for label in np.unique(labels):
         zero[labels == label] = np.median(given[labels == label])
-    intensities = np.exp((zero - given) / POGSON)
-    return Photometry(intensities, intensities * deviations / POGSON, zero)
+    return Photometry((zero - given) / POGSON, deviations / POGSON, zero)
 
 
 def emitted(argument: str, times: Any, at: Array, epoch: Any, distances: ArrayLike) -> tuple[Array, Any, Array]:
@@ -84,7 +90,10 @@ def emitted(argument: str, times: Any, at: Array, epoch: Any, distances: ArrayLi
     value = as_one("distances", distances)
     if has_units(value):
         units = extra("astropy.units", "distances with a unit")
-        value = units.Quantity(value).to_value("au")
+        quantity = units.Quantity(value)
+        if not quantity.unit.is_equivalent("au"):
+            raise TypeError(f"distances must be in au, or what converts to it: got {quantity.unit}")
+        value = quantity.to_value("au")
     light = LIGHT_TIME * np.broadcast_to(moderate("distances", value, (), (len(at),)), at.shape)
     of_calendar = hasattr(epoch, "jd1")
     if not of_calendar and not has_units(as_one(argument, times)):

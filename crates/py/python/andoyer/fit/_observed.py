@@ -50,7 +50,7 @@ def data_of(
     if distances is not None:
         at, epoch, light = emitted("times", dates[0], at, epoch, distances)
     members = (labels[:, None] == np.unique(labels)).astype(float)
-    curve = Curve(at, photometry.brightness, photometry.sigma**-2.0, sun, observer, members, "lommel-seeliger", False)
+    curve = Curve(at, photometry.brightness, photometry.sigma**-2.0, sun, observer, members, "lommel-seeliger", False, photometry.zero is not None)
     return Data(curve, photometry, epoch, dates[0], labels, light)
 
 
@@ -121,19 +121,23 @@ class Light:
     def at(self, times: Any, sun: ArrayLike | None, observer: ArrayLike | None, label: Any) -> Array:
         """Magnitudes or intensities as of the data, at their times (None) or at others."""
         curve, state = self.data.curve, self.seen.state
+        self._place(label)
         if times is None:
             value, factors, _, _ = curve.model(state)
             return self.data.photometry.as_given((factors @ curve.members.T) * value)
         at = np.atleast_1d(from_epoch("times", times, self.data.epoch, 0.0 if hasattr(self.data.epoch, "jd1") else float(self.data.epoch)))
-        if at.ndim != 1 or not np.isfinite(at).all():
-            raise refusal("times", at.shape, "(n,)", f"has shape {at.shape}: it must be finite times, shape (n,)")
+        if at.ndim != 1 or not at.size:
+            raise refusal("times", at.shape, "(n,)", f"has shape {at.shape}: it must be (n,) with n above 0")
+        if not np.isfinite(at).all():
+            place = int(np.flatnonzero(~np.isfinite(at))[0])
+            raise refusal(f"times[{place}]", float(at[place]), "finite", f"= {at[place]}: it must be finite")
         return self._since(at, sun, observer, label)
 
     def nights(self, count: int, units: bool) -> tuple[list[Night], int]:
         """The first nights, at most so many, and the number of all. `units`: the times are in seconds."""
         curve, photometry = self.data.curve, self.data.photometry
-        measured, model = photometry.as_given(curve.brightness), self.at(None, None, None, None)
-        sigma = photometry.sigma if photometry.zero is None else POGSON * photometry.sigma / curve.brightness
+        measured, model = photometry.given, self.at(None, None, None, None)
+        sigma = photometry.sigma if photometry.zero is None else POGSON * photometry.sigma
         parts = []
         for label in np.unique(self.data.labels):
             points = np.flatnonzero(self.data.labels == label)
@@ -159,10 +163,19 @@ class Light:
             )
         return found, len(parts)
 
+    def _place(self, label: Any) -> int:
+        """The number of a curve, by default the first."""
+        labels = np.unique(self.data.labels)
+        places = np.flatnonzero(labels == label) if label is not None else np.array([0])
+        if len(places) != 1:
+            raise refusal("curve", label, labels.tolist(), f"= {label!r}: it must be one of {labels.tolist()}")
+        return int(places[0])
+
     def _since(self, at: Array, sun: ArrayLike | None, observer: ArrayLike | None, label: Any) -> Array:
         """The model at times since the epoch."""
         curve, state = self.data.curve, self.seen.state
         _, factors, _, _ = curve.model(state)
+        labels, place = np.unique(self.data.labels), self._place(label)
         order = np.argsort(curve.times, kind="stable")
         inside = (at >= curve.times.min()) & (at <= curve.times.max())
         sides = []
@@ -176,18 +189,21 @@ class Light:
             else:
                 vectors = np.stack([np.interp(at, curve.times[order], axis[order]) for axis in own], axis=1)
             sides.append(vectors)
-        labels = np.unique(self.data.labels)
-        places = np.flatnonzero(labels == label) if label is not None else np.array([0])
-        if len(places) != 1:
-            raise refusal("curve", label, labels.tolist(), f"= {label!r}: it must be one of {labels.tolist()}")
         directions = [vectors.T for vectors in unit_vectors(*sides)]
         light = replace(
-            curve, times=at, brightness=np.ones(len(at)), weights=np.ones(len(at)), sun=directions[0], observer=directions[1], members=np.ones((len(at), 1))
+            curve,
+            times=at,
+            brightness=np.zeros(len(at)),
+            weights=np.ones(len(at)),
+            sun=directions[0],
+            observer=directions[1],
+            members=np.ones((len(at), 1)),
+            logarithms=True,
         )
         seen, _, _, _ = light.model(state)
         zero = self.data.photometry.zero
-        photometry = Photometry(seen, seen, None if zero is None else np.full(len(at), zero[self.data.labels == labels[places[0]]][0]))
-        return photometry.as_given(factors[places[0]] * seen)
+        photometry = Photometry(seen, seen, None if zero is None else np.full(len(at), zero[self.data.labels == labels[place]][0]))
+        return photometry.as_given(factors[place] * seen)
 
 
 def gaps(times: Array, shortest: float = 0.0) -> NDArray[np.bool_]:

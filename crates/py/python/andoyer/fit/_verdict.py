@@ -94,6 +94,8 @@ class Evidence:
     """The best simple rotation, beside a tumbling motion."""
     constant: float
     """χ² of constant brightness in each curve."""
+    undetermined: frozenset[str]
+    """Names of the quantities of the summary that the best fit itself does not determine."""
     unit: str
     """Of time: " s", or nothing."""
 
@@ -157,7 +159,10 @@ def judge(evidence: Evidence) -> Verdict:
     seen = (evidence.constant - best.chi_square) / by > NEAR * (6 if best.mode != "principal-axis" else 4)
     found = evidence.reached >= REACHED
     periods = _of(len(pairs), seen, found)
-    pole = _of(len(poles), seen and periods != LOST, found)
+    if evidence.undetermined & {"P_φ", "P_ψ", "period"}:
+        periods = LOST
+    lost = periods == LOST or evidence.undetermined & {"pole longitude", "pole latitude"}
+    pole = _of(len(poles), seen and not lost, found)
     simple = simple_rotation(evidence)
     if simple is not None and simple.probability > CHANCE:
         modes.add("principal-axis")
@@ -195,9 +200,8 @@ def _sentence(evidence: Evidence, words: tuple[str, str, str], counts: tuple[int
     of_pole = f" ({counts[1]} of them)" if counts[1] > 1 else ""
     text = f"{what} {'are' if best.mode != 'principal-axis' else 'is'} {periods}{several}, the pole λ {longitude % 360:.1f}° β {latitude:.1f}° {pole}{of_pole}, the mode {best.mode} {mode}"
     if simple is not None:
-        text += (
-            f"; simple rotation with {simple.period:.6g}{evidence.unit} fits worse by Δχ² {simple.delta_chi_square:.4g} (by chance {simple.probability:.1g})"
-        )
+        worse = f"worse by Δχ² {simple.delta_chi_square:.4g}" if simple.delta_chi_square > 0.05 else "as well"
+        text += f"; simple rotation with {simple.period:.6g}{evidence.unit} fits {worse} (by chance {simple.probability:.1g})"
     elif len(modes) > 1:
         text += f" (also {', '.join(name for name in modes if name != best.mode)})"
     if evidence.reached < REACHED:
