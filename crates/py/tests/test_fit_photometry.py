@@ -55,7 +55,7 @@ def test_zero_points_come_back_with_their_errors():
     )
     # Weights of intensities go with the measured ones: 1.5σ² of bias in ln brightness, which differences of magnitudes have not.
     bias = 1.5 * 0.01**2 * 0.4 * np.log(10)
-    assert 0 < (found.zero_points.magnitudes - intensities.zero_points.magnitudes).mean() < 2 * bias
+    assert 0 < (intensities.zero_points.magnitudes - found.zero_points.magnitudes).mean() < 2 * bias
     assert angle_between(intensities.scene.attitude, found.scene.attitude) < 1e-2
 
 
@@ -66,7 +66,7 @@ def test_magnitudes_of_large_errors_have_no_bias():
     exact = 17.3 - 2.5 * np.log10(fit.brightness(AXES, scene.solve().attitude(times), SUN, OBSERVER))
     found = fit.light_curve(AXES, times, magnitudes=exact + 0.2 * generator.standard_normal(len(times)), sigma=0.2, sun=SUN, observer=OBSERVER, scene=scene)
     # Weights by the measured intensities shift the mean by 0.055.
-    assert abs(found.residuals.mean()) < 1e-6 and abs(found.zero_points.magnitudes[0] - 17.3) < 4 * found.zero_points.sigma[0] < 0.05
+    assert abs(found.residuals.mean()) < 1e-6 and abs(found.zero_points.magnitudes[0] - 17.3) < 4 * found.zero_points.sigma[0] < 0.2
 
 
 def test_errors_of_zero_points_are_those_of_many_fits():

@@ -31,6 +31,8 @@ POLISHED = 32
 """States that are improved to the end, of either mode half."""
 SETTLING = 60
 """Steps of them all before each is polished alone."""
+FAR = 4.0
+"""Minima whose χ² is more than so many times the least stay as the steps together leave them."""
 FEW = 2000
 """Least number of starts of the hypothesis of simple rotation."""
 WOBBLE = 1e-3
@@ -310,13 +312,17 @@ def _joined(first: Population, second: Population) -> Population:
 
 
 def _polished(curve: Curve, population: Population) -> Population:
-    """Each state improved alone by SciPy, and those that are the same left out."""
+    """Each state improved alone by SciPy if it is near the best, and those that are the same left out."""
     optimize = extra("scipy.optimize", "andoyer.fit")
     found = []
+    least = float(np.min(population.chi_squares))
     for place in range(len(population.chi_squares)):
         state = population.states.part(slice(place, place + 1))
         first = np.zeros(len(curve.columns))
         if not np.all(np.isfinite(curve.residuals(state)[1])):
+            continue
+        if population.chi_squares[place] > FAR * least:
+            found.append((state, float(population.chi_squares[place])))
             continue
         solution = optimize.least_squares(_residuals, first, _jacobian, args=(curve, state), method="trf", xtol=1e-12, ftol=1e-12, gtol=1e-15)
         found.append((curve.moved(state, solution.x[None]), 2 * solution.cost))
