@@ -284,13 +284,15 @@ impl Evolution {
         seed: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Vec<(f64, Self)>> {
         let number = |name, value: Option<&Bound<'_, PyAny>>, least, default| {
-            value.map_or(Ok(default), |value| whole_number(name, value, least, 1 << 30, Kind::Input)).and_then(|number| match (least..=1 << 30).contains(&number) {
-                true => Ok(number),
-                false => {
-                    let text = format!("{name} = {number}: it must be a whole number from {least} to {}", 1 << 30);
-                    Err(error::input(name, number, least, text))
-                }
-            })
+            value.map_or(Ok(default), |value| whole_number(name, value, least, 1 << 30, Kind::Input)).and_then(
+                |number| match (least..=1 << 30).contains(&number) {
+                    true => Ok(number),
+                    false => {
+                        let text = format!("{name} = {number}: it must be a whole number from {least} to {}", 1 << 30);
+                        Err(error::input(name, number, least, text))
+                    }
+                },
+            )
         };
         let (members, seed) = (number("members", members, 1, 64)?, number("seed", seed, 0, 0)?);
         let pass = |stop: &std::sync::atomic::AtomicBool| self.evolution.through(members, seed as u64, stop);

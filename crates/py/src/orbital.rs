@@ -291,7 +291,10 @@ impl Orbital {
                 let counted = crate::samples::counted;
                 format!("<Orbital of {} at {} each>", counted(*members, "member"), counted(*count, "time"))
             }
-            [count, _] => format!("<Orbital at {}>", crate::samples::counted(*count, "time")),
+            [count, _] if self.times.bind(py).len().is_ok() => {
+                format!("<Orbital at {}>", crate::samples::counted(*count, "time"))
+            }
+            [count, _] => format!("<Orbital of {} at a scalar time>", crate::samples::counted(*count, "member")),
             _ => "<Orbital at a scalar time>".to_owned(),
         }
     }

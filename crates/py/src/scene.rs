@@ -25,7 +25,7 @@ use crate::{array, error};
 pub(crate) mod arguments;
 
 use arguments::{
-    disturbing_bodies, disturbing_body, doubt, epoch, near, not_a_body, not_an_orbit, precession, rotation, sense,
+    disturbing_bodies, disturbing_body, doubt, epoch, near, not_a_body, not_one_orbit, precession, rotation, sense,
     tolerance, with_options,
 };
 
@@ -293,10 +293,11 @@ impl Scene {
         }
         if let Some(phases) = phases {
             // Those of `from_periods` are in turns.
-            state.phases = array::fixed("phases of librations", phases)?;
+            let argument = if foreign::holds_units(phases)? { "phases of librations" } else { "phases" };
+            state.phases = array::fixed(argument, phases)?;
         }
         let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
-        let around = orbit.cast::<Orbit>().map_err(|_| not_an_orbit(orbit))?.get().0;
+        let around = orbit.cast::<Orbit>().map_err(|_| not_one_orbit(orbit))?.get().0;
         let find = |stop: &AtomicBool| andoyer_propagate::Scene::locked(of_body.clone(), &around, &state, stop);
         let scene = interruptible(py, true, error::propagation, find)?;
         let options = options.unwrap_or_else(|| PyDict::new(py));

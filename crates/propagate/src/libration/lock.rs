@@ -20,8 +20,8 @@ use crate::orbit::hansen::hansen;
 /// Largest number of rotations in two orbits.
 const MOST_IN_TWO: i32 = 8;
 
-/// A Hansen coefficient of the resonance below this is rounding.
-const NO_TORQUE: f64 = 1e-13;
+/// A Hansen coefficient of the resonance below this holds no body: its libration takes a hundred thousand orbits and more.
+const NO_TORQUE: f64 = 1e-10;
 
 /// Largest angle of the body from the frame \[rad\], beyond which no series is tried; also the amplitude of a swing whose resonance is not the nearest one.
 const LARGEST_ANGLE: f64 = 0.6;

@@ -6,6 +6,7 @@
 use std::sync::atomic::AtomicBool;
 
 use andoyer_series::Error as SeriesError;
+use andoyer_series::error::Short;
 use andoyer_series::periodic::{DrivenForm, MOST_WORK};
 
 use super::course::FourierMotion;
@@ -22,6 +23,8 @@ const SMALL: f64 = 1e-6;
 const STEPS: usize = 30;
 /// Two orders whose states differ by the first part of the largest amplitude give it; by more than the second, they are no series.
 const SAME: [f64; 2] = [1e-10, 1e-2];
+/// An amplitude \[rad\] beyond which no series is tried.
+const LARGEST: f64 = 1.0;
 
 /// ψ, p_ψ − C W₃, θ, p_θ, φ, p_φ of the libration whose proper modes have these amplitudes and phases \[rad\] at the time of the lock, or why there is none.
 ///
@@ -36,8 +39,8 @@ pub(crate) fn state(
     match of_forms(lock, amplitudes, phases, stop) {
         Ok(Some(variables)) => Ok(Ok(variables)),
         Ok(None) => {
-            let [longitude, first, second] = amplitudes.map(f64::to_degrees);
-            let what = format!("amplitudes of {longitude:.1}, {first:.1} and {second:.1} degrees");
+            let [longitude, first, second] = amplitudes.map(|amplitude| Short::rounded(amplitude.to_degrees(), 2));
+            let what = format!("amplitudes of {longitude}, {first} and {second} degrees");
             Ok(Err(format!("{what} are beyond the range of the series about the resonance {}", in_two(lock))))
         }
         Err(SeriesError::Interrupted { .. }) => Err(Error::Stopped),
@@ -57,6 +60,9 @@ fn of_forms(
         return Ok(Some(std::array::from_fn(|slot| state[slot])));
     }
     let largest = amplitudes.into_iter().fold(0.0, f64::max);
+    if largest > LARGEST {
+        return Ok(None);
+    }
     let (mut known, mut apart, mut work): (Option<[f64; 6]>, f64, f64) = (None, f64::INFINITY, 0.0);
     for order in (FIRST..=HIGHEST[lock.shape.rates().len()]).step_by(2) {
         work += form::work(&lock.shape, order, form.grid().times());

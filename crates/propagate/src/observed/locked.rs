@@ -1,5 +1,6 @@
 //! A scene of a body that is locked to an orbit: relaxed, or with free librations ([`crate::libration::relaxed`]).
 
+use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 use std::sync::atomic::AtomicBool;
 
@@ -78,7 +79,10 @@ impl Scene {
         let no = |reason| Error::NoLibration { reason };
         let twice = (2.0 * state.resonance) as i32;
         let lock = Lock::at_rest(&Body::new(body.moments())?, orbit, twice, state.epoch).map_err(no)?;
-        let variables = relaxed::state(&lock, state.amplitudes, state.phases, stop)?.map_err(no)?;
+        // An amplitude below the rounding of the attitude is none.
+        let amplitudes = state.amplitudes.map(|amplitude| if amplitude < f64::EPSILON { 0.0 } else { amplitude });
+        let phases = state.phases.map(|phase| phase.rem_euclid(TAU));
+        let variables = relaxed::state(&lock, amplitudes, phases, stop)?.map_err(no)?;
         let (attitude, rates) = lock.attitude_and_rates(variables);
         Ok(scene_about_principal_axes(body, state.epoch, attitude, rates).disturbing([*orbit]))
     }

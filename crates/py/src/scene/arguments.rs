@@ -131,6 +131,11 @@ pub(super) fn not_an_orbit(value: &Bound<'_, PyAny>) -> PyErr {
     PyTypeError::new_err(format!("{said} {}; use Orbit(mean_motion)", kind(value)))
 }
 
+/// The message for an argument that is not one `Orbit`.
+pub(super) fn not_one_orbit(value: &Bound<'_, PyAny>) -> PyErr {
+    PyTypeError::new_err(format!("orbit must be an andoyer.Orbit: got {}; a body is locked to one orbit", kind(value)))
+}
+
 /// The name of the type of a value.
 pub(crate) fn kind(value: &Bound<'_, PyAny>) -> String {
     value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string())

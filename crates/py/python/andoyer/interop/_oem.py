@@ -103,7 +103,7 @@ def read_oem(
         "all" joins the segments: each must begin at the last time of the one before. Their common time then stands twice in the table, with both states, as
         at a manoeuvre. A number, from 0, chooses one segment.
     epoch : float or astropy Time, optional
-        Time 0 of the orbit, in TDB seconds since J2000; by default 0. An epoch near the message keeps more digits: seconds since J2000 in a double are good
+        Time 0 of the orbit, in TDB seconds since J2000; by default 0, as a scene with a Time as its epoch needs it. An epoch near the message keeps more digits: seconds since J2000 in a double are good
         to 1e-7 s.
 
     Returns
@@ -244,6 +244,11 @@ def _segment(raw: RawSegment, epoch: Fraction) -> Read:
         raise ValueError(f"{raw.where}: a segment must have data")
     accelerated = len(raw.records[0].values) > len(STATE)
     table = np.array([row(record, STATE + ACCELERATION * accelerated) for record in raw.records])
+    if len(raw.records) < 2:
+        raise ValueError(f"{raw.records[0].where}: a segment must have two states or more: got 1")
+    zero = np.flatnonzero(~table[:, :3].any(axis=1))
+    if zero.size:
+        raise ValueError(f"{raw.records[zero[0]].where}: a position must not be 0, that of the center itself")
     moments = ascending(raw, system)
     left += _within(raw, system, moments)
     if accelerated:

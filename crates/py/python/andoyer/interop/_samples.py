@@ -43,6 +43,8 @@ def _times(times: Any, epoch: Any) -> tuple[Array, Any]:
     of_calendar = hasattr(times, "tdb")
     if epoch is not None and not hasattr(epoch, "tdb"):
         raise TypeError(f"epoch must be an astropy Time, or None: got {epoch!r}")
+    if epoch is not None and np.ndim(epoch.jd1):
+        raise refusal("epoch", epoch, "one time", f"must be one time: got {epoch!r}")
     if epoch is not None and of_calendar:
         raise refusal("epoch", epoch, None, "must be left out: the times are dates already")
     seconds = _numbers("times", plain("times", times), (np.size(times),))
@@ -52,7 +54,10 @@ def _times(times: Any, epoch: Any) -> tuple[Array, Any]:
     if back.size:
         row = back[0] + 1
         raise refusal(
-            f"times[{row}]", float(seconds[row]), float(seconds[back[0]]), f"= {seconds[row]!r} must be after {seconds[back[0]]!r}, the one before it"
+            f"times[{row}]",
+            float(seconds[row]),
+            float(seconds[back[0]]),
+            f"= {float(seconds[row])!r} must be after {float(seconds[back[0]])!r}, the one before it",
         )
     if epoch is None:
         return seconds, times if of_calendar else None
@@ -70,7 +75,10 @@ def _numbers(argument: str, value: Any, shape: tuple[int, ...], unknown: bool = 
     InputError
         Another shape, or a number that is not finite.
     """
-    array = np.asarray(value)
+    try:
+        array = np.asarray(value)
+    except ValueError as error:
+        raise refusal(argument, repr(value), shape, f"must have the shape {shape}: {error}") from None
     if array.dtype.kind not in "iuf":
         raise TypeError(f"{argument} must hold real numbers, not {array.dtype}")
     array = array.astype(np.float64)
