@@ -68,7 +68,7 @@ impl Scene {
     /// use std::sync::atomic::AtomicBool;
     /// use andoyer_propagate::{Body, Method, Orbit, Scene};
     /// use andoyer_propagate::libration_terms::LockedState;
-    /// let orbit = Orbit::new(1.0)?.eccentricity(0.02)?;
+    /// let orbit = Orbit::new(1.0, 0.02)?;
     /// let scene = Scene::locked(Body::new([0.3, 0.35, 0.4])?, &orbit, &LockedState::default(), &AtomicBool::new(false))?;
     /// let motion = scene.tolerance(1e-9).method(Method::Libration).solve()?;
     /// assert!(motion.libration().is_some_and(|libration| libration.amplitudes()[0] < 1e-9));
