@@ -8,17 +8,16 @@ use std::sync::atomic::AtomicBool;
 use nalgebra::Vector3;
 
 use crate::error::Error;
-use crate::evolution::averaged_scene::Evolved;
+use crate::evolution::averaged_scene::{Evolved, family_of};
 use crate::evolution::evolve::{Evolution, EvolveOptions};
+use crate::evolution::polhode_means::ModeFamily;
 use crate::evolution::weakness::EndReason;
 use crate::input::options::{Convention, Method};
 use crate::input::scene::Scene;
-use crate::motion::solved::Motion;
 use crate::observed::periods::ObservedPeriods;
-use crate::torque_free::mode::Mode;
 use crate::torque_free::series::tables::SeriesTables;
 
-/// Members start where the averages have so many changes of a wobble left to the separatrix, and at least this fraction of its excess.
+/// Members start at least so many wobbles before the separatrix, where 1 − ξ/ξ_sep is at least the second number.
 const BEFORE: f64 = 20.0;
 const LEAST: f64 = 1e-6;
 /// A member that is nearer to the separatrix after its integration than this part of the distance at its start is integrated further, so many times at most.
@@ -32,19 +31,6 @@ const SPREAD: f64 = 8.0;
 const CORRECTIONS: usize = 3;
 /// Three numbers whose multiples fill a cube evenly: powers of the root of x⁴ = x + 1.
 const EVEN: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_1];
-
-/// What becomes of some of the phases.
-#[derive(Clone, Debug)]
-pub struct Crossing {
-    /// The share of the phases.
-    pub probability: f64,
-    /// The mode after the separatrix.
-    pub mode: Mode,
-    /// 1 if the positive axis of the mode is along the angular momentum, otherwise −1.
-    pub sense: f64,
-    /// The averaged motion of one of them, from after the separatrix.
-    pub evolution: Evolution,
-}
 
 impl Evolution {
     /// A scene at a time with given phases \[turns\], as of [`ObservedPeriods::phases`], whose averaged motion this is: torques, orbits and options are those of the evolution's scene, without a
@@ -77,7 +63,7 @@ impl Evolution {
             momentum_direction: state.direction().into(),
             phases,
             epoch: state.time,
-            sense: Some(self.sense()),
+            sense: Some(self.family().sign()),
             // Of a rotation about the axis the ratio is the lowest one, which rounding may miss.
             ..ObservedPeriods::new(periods.precession, periods.rotation.max(lowest * periods.precession))
         };
@@ -85,127 +71,92 @@ impl Evolution {
         Ok(self.scene().with_state(*free.state()).without_span())
     }
 
-    /// Whether the positive axis of the mode is along the angular momentum at the epoch: 1, otherwise −1.
-    fn sense(&self) -> f64 {
-        sense_of(self.scene())
-    }
-
-    /// What becomes of it beyond the separatrix: for each mode and sense that members with evenly spread phases reach, its probability and the averaged motion of one of them up to the end of
-    /// the span. Starts are spread over some wobbles, too. An evolution that ends otherwise is its own, with the probability 1.
+    /// What becomes of it beyond the separatrix: for each mode and sense that members with evenly spread phases reach, the share of the members and the averaged motion of one of them up to the
+    /// end of the span, the most frequent first. Their starts are spread over some wobbles, too. An evolution that ends otherwise is its own, with the share 1.
     ///
     /// # Errors
-    /// - Those of [`Scene::solve`] and [`Scene::evolve`]; [`Error::NotAveraged`] if a member stays at the separatrix.
-    pub fn through(&self, members: usize, seed: u64, stop: &AtomicBool) -> Result<Vec<Crossing>, Error> {
+    /// - [`Error::Number`] for no members; those of [`Scene::solve`] and [`Scene::evolve`]; [`Error::NotAveraged`] if a member stays at the separatrix.
+    pub fn through(&self, members: usize, seed: u64, stop: &AtomicBool) -> Result<Vec<(f64, Self)>, Error> {
+        if members == 0 {
+            return Err(Error::Number { argument: "members", index: None, value: 0.0, bound: "1 or more" });
+        }
         let end = self.end();
-        if end.reason != EndReason::Separatrix || members == 0 {
-            let (mode, sense) = (self.at(&[end.time])?[0].mode, self.sense());
-            return Ok(vec![Crossing { probability: 1.0, mode, sense, evolution: self.clone() }]);
+        if end.reason != EndReason::Separatrix {
+            return Ok(vec![(1.0, self.clone())]);
         }
         let (start, distance, wobble) = self.before(end.time)?;
         let origin = (seed as f64 * 0.618_033_988_749_894_9).fract();
         // The energy changes in steps of a wobble, so that starts at one time would not mix: they are spread over some wobbles.
-        let epoch = self.scene().state().epoch;
-        let earliest = start - (SPREAD * wobble).min((start - epoch).abs()).copysign(end.time - start);
-        let mut found: Vec<(Mode, f64, usize, Scene)> = Vec::new();
+        let earliest = start - (SPREAD * wobble).min((start - self.epoch()).abs()).copysign(end.time - start);
+        let mut found: Vec<(ModeFamily, usize, Scene)> = Vec::new();
         for member in 0..members {
             let [first, second, third] = EVEN.map(|step| (origin + (member as f64 + 0.5) * step).fract());
             let from = start + third * (earliest - start);
             let scene = self.motion_at(from, [first, second])?;
-            let scene = self.passed(scene, (end.time - from, distance, wobble), stop)?;
-            let (mode, sense) = (mode_of(&scene)?, sense_of(&scene));
-            match found.iter_mut().find(|one| (one.0, one.1) == (mode, sense)) {
-                Some(one) => one.2 += 1,
-                None => found.push((mode, sense, 1, scene)),
+            let (family, scene) = self.passed(scene, (end.time - from, distance, wobble), stop)?;
+            match found.iter_mut().find(|one| one.0 == family) {
+                Some(one) => one.1 += 1,
+                None => found.push((family, 1, scene)),
             }
         }
-        found.sort_by_key(|one| std::cmp::Reverse(one.2));
+        found.sort_by_key(|one| std::cmp::Reverse(one.1));
         let [first, last] = self.span();
-        let evolved = |(mode, sense, count, scene): (Mode, f64, usize, Scene)| {
+        let evolved = |(_, count, scene): (ModeFamily, usize, Scene)| {
             let time = scene.state().epoch;
-            let (first, last) = if end.time < start { (first, time) } else { (time, last.max(time)) };
-            let options = EvolveOptions::default().span(first.min(last), last).average(self.average());
+            let span = if end.time < start { [first.min(time), time] } else { [time, last.max(time)] };
+            let options = EvolveOptions::default().span(span[0], span[1]).average(self.average());
             let evolution = scene.evolve(options.tolerance(self.tolerance()).until(stop))?;
-            Ok(Crossing { probability: count as f64 / members as f64, mode, sense, evolution })
+            Ok((count as f64 / members as f64, evolution))
         };
         found.into_iter().map(evolved).collect()
     }
 
-    /// A time before the separatrix, how far from it the state is there (of 1 − ξ/ξ_sep), and the period of the wobble.
+    /// A time before the separatrix, 1 − ξ/ξ_sep there, and the period of the wobble.
     fn before(&self, end: f64) -> Result<(f64, f64, f64), Error> {
-        let epoch = self.scene().state().epoch;
-        let far = |time: f64| Ok::<f64, Error>(1.0 - self.at(&[time])?[0].excess / self.separatrix());
-        let (mut near, mut away) = (end, epoch);
+        let seen = |time: f64| {
+            let state = self.at(&[time])?[0];
+            Ok::<_, Error>((1.0 - state.excess / self.separatrix(), state.periods(Convention::ExtremalAxis).rotation))
+        };
         // The period of the wobble changes slowly, with the logarithm of the distance.
+        let (mut near, mut away) = (end, self.epoch());
         for _ in 0..60 {
             let middle = near + 0.5 * (away - near);
-            let distance = far(middle)?;
-            let wobble = self.at(&[middle])?[0].periods(Convention::ExtremalAxis).rotation;
-            let change = distance * wobble / (end - middle).abs().max(f64::MIN_POSITIVE);
-            if distance > LEAST.max(BEFORE * change) { away = middle } else { near = middle }
+            let (distance, wobble) = seen(middle)?;
+            if distance > LEAST && (end - middle).abs() > BEFORE * wobble { away = middle } else { near = middle }
         }
-        let wobble = self.at(&[away])?[0].periods(Convention::ExtremalAxis).rotation;
-        Ok((away, far(away)?, wobble))
+        let (distance, wobble) = seen(away)?;
+        Ok((away, distance, wobble))
     }
 
-    /// The scene of a member after it has passed the separatrix, by the full equations.
+    /// The scene of a member after it has passed the separatrix, by the full equations, and its mode and sense.
     fn passed(
         &self,
-        scene: Scene,
+        mut scene: Scene,
         (whole, distance, wobble): (f64, f64, f64),
         stop: &AtomicBool,
-    ) -> Result<Scene, Error> {
+    ) -> Result<(ModeFamily, Scene), Error> {
         let length = whole + wobble.copysign(whole);
-        let mut scene = scene;
-        let mut left = 2.0 * length;
+        let (mut left, mut nearest) = (2.0 * length, 0.0);
         let tolerance = TOLERANCE.min(distance * 1e-2);
         for _ in 0..FURTHER {
             let epoch = scene.state().epoch;
             let until = epoch + left;
             let solved = scene.clone().method(Method::Integrated).tolerance(tolerance);
-            let motion: Motion =
-                solved.span(epoch.min(until), epoch.max(until)).solve_until(&SeriesTables::default(), stop)?;
+            let motion = solved.span(epoch.min(until), epoch.max(until)).solve_until(&SeriesTables::default(), stop)?;
             scene = scene.with_state(*motion.scene_at(until)?.state());
-            if from_separatrix(&scene) > AWAY * distance {
-                return Ok(scene);
+            if let Some((family, part)) = family_of(&scene) {
+                nearest = 1.0 - part;
+                if nearest > AWAY * distance {
+                    return Ok((family, scene));
+                }
             }
             left = 0.5 * length;
         }
         let reason = "1 − ξ/ξ_sep of a member that stays at the separatrix: it";
-        Err(Error::NotAveraged { reason, size: from_separatrix(&scene), bound: AWAY * distance })
+        Err(Error::NotAveraged { reason, size: nearest, bound: AWAY * distance })
     }
-}
 
-/// 2BE/M² − 1 of a scene over its largest value in the mode: the distance from the separatrix.
-fn from_separatrix(scene: &Scene) -> f64 {
-    let mut moments = scene.body().moments();
-    let momentum = body_momentum(scene);
-    let energy = momentum.iter().zip(moments).map(|(part, moment)| part * part / moment).sum::<f64>();
-    moments.sort_by(f64::total_cmp);
-    let [a, b, c] = moments;
-    let departure = b * energy / momentum.norm_squared() - 1.0;
-    (departure / if departure > 0.0 { b / a - 1.0 } else { b / c - 1.0 }).abs()
-}
-
-fn mode_of(scene: &Scene) -> Result<Mode, Error> {
-    let mut moments = scene.body().moments();
-    let momentum = body_momentum(scene);
-    let energy = momentum.iter().zip(moments).map(|(part, moment)| part * part / moment).sum::<f64>();
-    moments.sort_by(f64::total_cmp);
-    Ok(if moments[1] * energy < momentum.norm_squared() { Mode::ShortAxis } else { Mode::LongAxis })
-}
-
-/// The sign of the angular momentum along the axis of the mode.
-fn sense_of(scene: &Scene) -> f64 {
-    let moments = scene.body().moments();
-    let short = mode_of(scene) == Ok(Mode::ShortAxis);
-    let order = |one: &usize, other: &usize| moments[*one].total_cmp(&moments[*other]);
-    let axis = if short { (0..3).max_by(order) } else { (0..3).min_by(order) };
-    if body_momentum(scene)[axis.unwrap_or(2)] < 0.0 { -1.0 } else { 1.0 }
-}
-
-/// The angular momentum about principal axes.
-fn body_momentum(scene: &Scene) -> Vector3<f64> {
-    let rates = scene.state().angular_velocity;
-    let rates = scene.body().turn().map_or(rates, |turn| turn.inverse() * rates);
-    Vector3::from(scene.body().moments()).component_mul(&rates)
+    fn epoch(&self) -> f64 {
+        self.scene().state().epoch
+    }
 }

@@ -126,7 +126,6 @@ pub mod torques {
 #[cfg(feature = "torques")]
 pub mod evolutions {
     //! Weak torques averaged over the rotation: mean rates, and the motion over years to millions of years.
-    pub use crate::crossing::Crossing;
     pub use crate::evolution::averaged_scene::Evolved;
     pub use crate::evolution::drift::Drift;
     pub use crate::evolution::evolve::{Evolution, EvolutionPlan, EvolveOptions};

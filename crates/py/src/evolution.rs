@@ -10,7 +10,7 @@ use pyo3::types::{PyDict, PyList};
 use crate::array::{self, Times};
 use crate::computing::{detached, interruptible};
 use crate::error;
-use crate::foreign::Calendar;
+use crate::foreign::{self, Calendar};
 use crate::order::whole_number;
 use crate::scene_class::Scene;
 use crate::values::immutable;
@@ -254,7 +254,7 @@ impl Evolution {
         }
         let phases = array::fixed("phases", phases)?;
         let scene = detached(py, error::propagation, || self.evolution.motion_at(time, phases))?;
-        Ok(Scene { calendar: self.calendar.map(|_| calendar_of(time)), ..scene.into() })
+        Ok(Scene { calendar: self.calendar_at(py, time)?, ..scene.into() })
     }
 
     /// What becomes of it beyond the separatrix, where the mode depends on phases that the averages have lost: members with evenly spread phases pass it by the full equations, and each outcome goes on in averages.
@@ -284,25 +284,16 @@ impl Evolution {
         seed: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Vec<(f64, Self)>> {
         let number = |name, value: Option<&Bound<'_, PyAny>>, least, default| {
-            value.map_or(Ok(default), |value| whole_number(name, value, least, 1 << 30, Kind::Input)).and_then(
-                |number| match (least..=1 << 30).contains(&number) {
-                    true => Ok(number),
-                    false => {
-                        let text = format!("{name} = {number}: it must be a whole number from {least} to {}", 1 << 30);
-                        Err(error::input(name, number, least, text))
-                    }
-                },
-            )
+            value.map_or(Ok(default), |value| whole_number(name, value, least, usize::MAX >> 1, Kind::Input))
         };
         let (members, seed) = (number("members", members, 1, 64)?, number("seed", seed, 0, 0)?);
         let pass = |stop: &std::sync::atomic::AtomicBool| self.evolution.through(members, seed as u64, stop);
         let passages = interruptible(py, true, error::propagation, pass)?;
-        let of = |passage: evolutions::Crossing| {
-            let time = passage.evolution.scene().state().epoch;
-            let calendar = self.calendar.map(|_| calendar_of(time));
-            (passage.probability, Self { evolution: passage.evolution, calendar })
+        let of = |(share, evolution): (f64, evolutions::Evolution)| {
+            let calendar = self.calendar_at(py, evolution.scene().state().epoch)?;
+            Ok((share, Self { evolution, calendar }))
         };
-        Ok(passages.into_iter().map(of).collect())
+        passages.into_iter().map(of).collect()
     }
 
     /// Why and when it ends.
@@ -341,13 +332,13 @@ impl Evolution {
     }
 }
 
-/// The calendar time of TDB seconds since J2000.
-fn calendar_of(seconds: f64) -> Calendar {
-    let days = (seconds / 86400.0).floor();
-    ([2_451_545.0 + days, (seconds - 86400.0 * days) / 86400.0], 0, None)
-}
-
 impl Evolution {
+    /// A time as a calendar time, if the epoch of the scene is one.
+    fn calendar_at(&self, py: Python<'_>, time: f64) -> PyResult<Option<Calendar>> {
+        let Some(epoch) = self.calendar else { return Ok(None) };
+        Ok(foreign::later(py, epoch, false, time)?.1.first().copied())
+    }
+
     /// Times on the scale of the scene, and the shape of what is computed at them.
     fn times(&self, times: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<usize>)> {
         let times = Times::new(times, self.calendar, true)?;

@@ -1,5 +1,6 @@
 """`Scene.locked`: the relaxed state of a locked body, and free librations that are asked for."""
 
+import re
 from fractions import Fraction
 
 import numpy as np
@@ -78,6 +79,53 @@ def test_axes_in_any_order_and_a_tensor_give_one_motion():
 def test_a_wrong_argument_is_named(options, error, message):
     with pytest.raises(error, match=message):
         Scene.locked(BODY, ORBIT, **options)
+
+
+def planar_growth(twist, e):
+    """The largest multiplier of ψ″ = -twist/2 (a/r)³ sin 2(ψ + M - f) about its motion with the period of the orbit, by DOP853 of SciPy: twist = 3 (B - A)/C."""
+    integrate = pytest.importorskip("scipy.integrate").solve_ivp
+
+    def slope(anomaly, y):
+        eccentric = anomaly
+        for _ in range(60):
+            eccentric -= (eccentric - e * np.sin(eccentric) - anomaly) / (1 - e * np.cos(eccentric))
+        distance, seen = 1 - e * np.cos(eccentric), 2 * np.arctan2(np.sqrt(1 + e) * np.sin(eccentric / 2), np.sqrt(1 - e) * np.cos(eccentric / 2))
+        angle = 2 * (y[0] + anomaly - seen)
+        bend = -twist * np.cos(angle) / distance**3
+        return [y[1], -twist / 2 * np.sin(angle) / distance**3, y[3], bend * y[2], y[5], bend * y[4]]
+
+    def after_an_orbit(state):
+        return integrate(slope, (0, 2 * np.pi), [*state, 1, 0, 0, 1], "DOP853", rtol=1e-11, atol=1e-12).y[:, -1]
+
+    root = pytest.importorskip("scipy.optimize").fsolve(lambda state: after_an_orbit(state)[:2] - state, np.zeros(2), xtol=1e-11)
+    end = after_an_orbit(root)
+    course = np.array([[end[2], end[4]], [end[3], end[5]]])
+    assert np.abs(end[:2] - root).max() < 1e-8
+    return np.abs(np.linalg.eigvals(course)).max()
+
+
+@pytest.mark.parametrize(
+    ("moments", "e", "out"),
+    [
+        ([0.65, 0.97, 1], 0.25, "stable"),
+        ([0.8, 0.9, 1], 0.15, "stable"),
+        ([0.5, 0.75, 1], 0.3, None),
+        ([0.5, 0.8, 1], 0.15, "unstable"),
+        ([0.6, 0.9, 1], 0.1, "unstable"),
+    ],
+)
+def test_the_plane_of_an_instability_is_that_of_an_own_integration(moments, e, out):
+    growth = planar_growth(3 * (moments[1] - moments[0]), e)
+    with pytest.raises(TheoryError) as caught:
+        Scene.locked(Body(moments), Orbit(1.0, eccentricity=e))
+    said = str(caught.value)
+    assert ("the resonance 1 is unstable in the orbit's plane" in said) == (growth > 1.001)
+    if out == "stable":
+        # The growth is that of the longitude alone.
+        orbits = float(re.search(r"\(([\d.]+) orbits", said)[1])
+        assert ", stable out of it" in said and orbits == pytest.approx(1 / np.log(growth), rel=5e-3)
+    elif out == "unstable":
+        assert "unstable out of it" in said
 
 
 def test_a_resonance_without_torque_or_stability_is_said_in_words():

@@ -57,6 +57,19 @@ impl Evolved {
     }
 }
 
+/// The angular momentum in body axes, of a scene about principal axes.
+fn body_momentum(scene: &Scene) -> Vector3<f64> {
+    Vector3::from(scene.body().moments()).component_mul(&scene.state().angular_velocity)
+}
+
+/// The mode and sense of a scene, and ξ/ξ_sep; `None` on the separatrix to rounding.
+pub(crate) fn family_of(scene: &Scene) -> Option<(ModeFamily, f64)> {
+    let scene = scene.body().turn().map_or_else(|| scene.clone(), |turn| scene.about_principal_axes(turn));
+    let (moments, sort) = sorted_axes(scene.body().moments());
+    let (family, excess) = ModeFamily::of(&moments, &(sort * body_momentum(&scene).normalize()))?;
+    Some((family, excess / family.alpha(&moments).y))
+}
+
 /// A scene that can be averaged: its equations and its state.
 #[derive(Clone, Debug)]
 pub(super) struct AveragedScene {
@@ -75,8 +88,7 @@ impl AveragedScene {
     pub(super) fn new(scene: &Scene, average: Averaging) -> Result<Self, Error> {
         let scene = scene.validated()?;
         let scene = scene.body().turn().map_or_else(|| scene.clone(), |turn| scene.about_principal_axes(turn));
-        let moments = Vector3::from(scene.body().moments());
-        let body = moments.component_mul(&scene.state().angular_velocity);
+        let body = body_momentum(&scene);
         let momentum = scene.state().attitude * body;
         let size = momentum.norm();
         if !size.is_normal() {

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 
 use super::averaged_scene::{AveragedScene, Evolved};
 use super::path::{AveragedPath, EvolutionEnd, Node, Scaled};
+use super::polhode_means::ModeFamily;
 use super::short_period::ShortPeriod;
 use super::weakness::EndReason;
 use super::window::second_order;
@@ -132,13 +133,18 @@ impl Evolution {
     }
 
     /// The largest relative error of a step of the integration.
-    pub fn tolerance(&self) -> f64 {
+    pub(crate) fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
+    /// The mode, and the sense of the angular momentum along its axis.
+    pub(crate) fn family(&self) -> ModeFamily {
+        self.problem.equations.family
+    }
+
     /// ξ of the separatrix.
-    pub fn separatrix(&self) -> f64 {
-        self.problem.equations.family.alpha(&self.problem.equations.moments).y
+    pub(crate) fn separatrix(&self) -> f64 {
+        self.family().alpha(&self.problem.equations.moments).y
     }
 
     /// Whether torques are averaged over orbits, too.

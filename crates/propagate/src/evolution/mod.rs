@@ -12,7 +12,7 @@ pub(crate) mod facets;
 mod harmonic;
 pub(crate) mod obj;
 pub(crate) mod path;
-mod polhode_means;
+pub(crate) mod polhode_means;
 mod rows;
 mod short_period;
 mod sources;

@@ -17,7 +17,7 @@ const RECURRENCE: f64 = 0.5;
 
 /// The axis of the mode and the sense of the angular momentum along it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct ModeFamily {
+pub(crate) struct ModeFamily {
     /// True for the short axis.
     pub(super) short: bool,
     /// True if the angular momentum is along the positive axis.
@@ -35,7 +35,7 @@ impl ModeFamily {
         2 - self.axis()
     }
 
-    pub(super) fn sign(self) -> f64 {
+    pub(crate) fn sign(self) -> f64 {
         if self.positive { 1.0 } else { -1.0 }
     }
 

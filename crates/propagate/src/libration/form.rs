@@ -3,14 +3,12 @@
 //! The work of a form is known before it is made: that of the search for the periodic motion, and that of products of two terms, at each time of the grid of the driven phases. Two
 //! polynomials in six variables whose degrees together are N + 2 at most have C(N + 14, 12) of them, and a form of order N takes as long as some such multiplications.
 
-use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use andoyer_series::Error;
 use andoyer_series::birkhoff::Mode;
-use andoyer_series::num_complex::Complex;
 use andoyer_series::periodic::{DrivenForm, DrivenOptions};
 
 use super::shape::{LockedShape, PlaneMotion};
@@ -18,12 +16,6 @@ use crate::numerics::kept::KeptForms;
 
 /// Divisors below this part of the largest frequency end a normal form: the estimate refuses larger ones that are too small.
 const SMALLEST_DIVISOR: f64 = 1e-9;
-/// The periodic motion is unstable in the plane of the orbit, out of it, or both.
-pub(super) const UNSTABLE: [&str; 3] = [
-    "grow in each orbit, in its plane: the motion is unstable",
-    "grow in each orbit, out of its plane: the motion is unstable",
-    "grow in each orbit, in its plane and out of it: the motion is unstable",
-];
 /// Most harmonics of a phase.
 const HARMONICS: usize = 252;
 /// The last harmonics of the periodic motion and of its frame are at most this fraction of the tolerance, and not below the second number, which rounding reaches.
@@ -110,21 +102,18 @@ fn form(
             Some(known) => known.to_order(shape, order, &mut going)?,
             None => DrivenForm::new(shape, &shape.rates(), options, &mut going)?,
         };
-        let growing = |mode: &Mode<f64>| match mode {
-            Mode::Hyperbolic { rate } => Some(rate.abs()),
-            _ => None,
-        };
-        let rates: Vec<_> = form.modes().iter().map(growing).collect();
-        if rates.iter().all(Option::is_none) {
+        if !form.modes().iter().any(|mode| matches!(mode, Mode::Hyperbolic { .. })) {
             return Ok(form);
         }
-        // Two columns of the frame for each mode; ψ and p_ψ are the first two rows.
-        let [frame, _] = form.frame(&vec![0.0; shape.rates().len()]);
-        let size = |rows: &[Vec<Complex<f64>>], column: usize| rows.iter().map(|row| row[column].norm()).sum::<f64>();
-        let in_plane = |mode: usize| size(&frame[..2], 2 * mode) > size(&frame[2..], 2 * mode);
-        let unstable = |plane: bool| (0..rates.len()).any(|mode| rates[mode].is_some() && in_plane(mode) == plane);
-        let problem = UNSTABLE[usize::from(unstable(false)) + usize::from(unstable(true) && unstable(false))];
-        let multipliers = rates.into_iter().flatten().map(|rate| [(TAU * rate).exp(), 0.0]).collect();
-        Err(Error::MultiplierUnsupported { multipliers, problem })
+        let pair = |mode: &Mode<f64>| match mode {
+            Mode::Hyperbolic { rate } => [[(rate * shape.period()).exp(), 0.0], [(-rate * shape.period()).exp(), 0.0]],
+            Mode::Elliptic { frequency, .. } | Mode::Complex { frequency, .. } => {
+                let (sine, cosine) = (frequency * shape.period()).sin_cos();
+                [[cosine, sine], [cosine, -sine]]
+            }
+            _ => [[f64::NAN; 2]; 2],
+        };
+        let multipliers = form.modes().iter().flat_map(pair).collect();
+        Err(Error::MultiplierUnsupported { multipliers, problem: "grow in each period: the motion is unstable" })
     })
 }

@@ -18,13 +18,13 @@ use crate::orbit::elements::Orbit;
 use crate::orbit::hansen::hansen;
 
 /// Largest number of rotations in two orbits.
-const MOST_IN_TWO: i32 = 8;
+pub(crate) const MOST_IN_TWO: i32 = 8;
 
-/// A Hansen coefficient of the resonance below this holds no body: its libration takes a hundred thousand orbits and more.
+/// A Hansen coefficient X of the resonance below this holds no body: with ω_ψ² = 3 X (B − A)/C n² a libration takes 58,000 orbits or more.
 const NO_TORQUE: f64 = 1e-10;
 
 /// Largest angle of the body from the frame \[rad\], beyond which no series is tried; also the amplitude of a swing whose resonance is not the nearest one.
-const LARGEST_ANGLE: f64 = 0.6;
+pub(super) const LARGEST_ANGLE: f64 = 0.6;
 
 /// A scene in the frame of its resonance.
 #[derive(Clone, Debug)]

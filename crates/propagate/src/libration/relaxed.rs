@@ -11,9 +11,10 @@ use andoyer_series::periodic::{DrivenForm, MOST_WORK};
 
 use super::course::FourierMotion;
 use super::form;
-use super::lock::Lock;
-use super::solution::{FIRST, HIGHEST, Libration, in_two, refusal};
+use super::lock::{LARGEST_ANGLE, Lock};
+use super::solution::{FIRST, HIGHEST, Libration, refusal};
 use crate::error::Error;
+use crate::motion::plan::in_words;
 
 /// The tolerance of the normal form \[rad\].
 const TOLERANCE: f64 = 1e-12;
@@ -23,8 +24,6 @@ const SMALL: f64 = 1e-6;
 const STEPS: usize = 30;
 /// Two orders whose states differ by the first part of the largest amplitude give it; by more than the second, they are no series.
 const SAME: [f64; 2] = [1e-10, 1e-2];
-/// An amplitude \[rad\] beyond which no series is tried.
-const LARGEST: f64 = 1.0;
 
 /// ψ, p_ψ − C W₃, θ, p_θ, φ, p_φ of the libration whose proper modes have these amplitudes and phases \[rad\] at the time of the lock, or why there is none.
 ///
@@ -41,7 +40,10 @@ pub(crate) fn state(
         Ok(None) => {
             let [longitude, first, second] = amplitudes.map(|amplitude| Short::rounded(amplitude.to_degrees(), 2));
             let what = format!("amplitudes of {longitude}, {first} and {second} degrees");
-            Ok(Err(format!("{what} are beyond the range of the series about the resonance {}", in_two(lock))))
+            Ok(Err(format!(
+                "{what} are beyond the range of the series about the resonance {}",
+                in_words(lock.shape.twice)
+            )))
         }
         Err(SeriesError::Interrupted { .. }) => Err(Error::Stopped),
         Err(error) => Ok(Err(refusal(lock, &error))),
@@ -60,7 +62,7 @@ fn of_forms(
         return Ok(Some(std::array::from_fn(|slot| state[slot])));
     }
     let largest = amplitudes.into_iter().fold(0.0, f64::max);
-    if largest > LARGEST {
+    if largest > LARGEST_ANGLE {
         return Ok(None);
     }
     let (mut known, mut apart, mut work): (Option<[f64; 6]>, f64, f64) = (None, f64::INFINITY, 0.0);

@@ -1,5 +1,7 @@
 //! The equations of a locked rotation: what does not depend on the state of the body.
 
+use std::f64::consts::TAU;
+
 /// The equations of a locked rotation. The unit of time is 1/n, and that of the moments is the largest one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LockedShape {
@@ -79,6 +81,11 @@ impl LockedShape {
             Phases::Both => vec![1.0, self.precession.phase_rate],
             Phases::Common { divided, .. } => vec![1.0 / divided as f64],
         }
+    }
+
+    /// The period of the first phase, or an orbit where nothing depends on a phase, in units of 1/n.
+    pub(crate) fn period(&self) -> f64 {
+        TAU / self.rates().first().copied().unwrap_or(1.0).abs()
     }
 
     /// The phases of a normal form at a mean anomaly M and an angle α.

@@ -36,8 +36,6 @@ const LARGEST_RESIDUAL: f64 = 0.03;
 const DROPPED: [f64; 2] = [1e-3, 0.1];
 /// A multiplier of a stable motion exceeds 1 by less.
 const STABLE: f64 = 1e-6;
-const OUT_OF_PLANE: &str = "stable in the orbit's plane, unstable out of it";
-const IN_BOTH: &str = "unstable in the orbit's plane and out of it";
 /// Harmonics below this fraction of the tolerance are never formed.
 const NEGLIGIBLE: f64 = 1e-7;
 /// The libration of a body locked to an orbit: its proper modes and its terms, in the frame that turns with the resonance.
@@ -90,34 +88,25 @@ pub(crate) fn solved(lock: Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<R
     }
 }
 
-/// The resonance of a lock in words.
-pub(super) fn in_two(lock: &Lock) -> String {
-    in_words(lock.shape.twice)
-}
-
-/// Why a resonance has no form.
+/// Why a resonance has no form. Multipliers off the unit circle are said in words: those of the longitude come first, unless the plane of the orbit moves and couples it to the pole.
 pub(super) fn refusal(lock: &Lock, error: &SeriesError) -> String {
-    let about = in_two(lock);
-    let SeriesError::MultiplierUnsupported { multipliers, problem } = error else {
-        return format!("about the resonance {about}, {error}");
-    };
+    let about = in_words(lock.shape.twice);
     let largest = |of: &[[f64; 2]]| of.iter().map(|[re, im]| re.hypot(*im)).fold(1.0, f64::max);
-    // The first pair is that of the longitude, unless the plane of the orbit couples it to the pole.
     let stable = |of: &[[f64; 2]]| largest(of) < 1.0 + STABLE;
-    let how = match form::UNSTABLE.iter().position(|known| known == problem) {
-        Some(kind) => ["unstable in the orbit's plane, stable out of it", OUT_OF_PLANE, IN_BOTH][kind],
-        None if multipliers.len() != 6 || stable(multipliers) => {
-            return format!("about the resonance {about}, {error}");
+    let multipliers = match error {
+        SeriesError::MultiplierUnsupported { multipliers, .. } if multipliers.len() == 6 && !stable(multipliers) => {
+            multipliers
         }
-        None if lock.shape.is_tilted() => "unstable",
-        None => match (stable(&multipliers[..2]), stable(&multipliers[2..])) {
-            (true, _) => OUT_OF_PLANE,
-            (_, true) => "unstable in the orbit's plane, stable out of it",
-            _ => IN_BOTH,
-        },
+        _ => return format!("about the resonance {about}, {error}"),
     };
-    let rate = largest(multipliers).ln();
-    let (orbits, time) = (Short::rounded(1.0 / rate, 3), Short::rounded(TAU / (lock.mean_motion * rate), 3));
+    let how = match (lock.shape.is_tilted(), stable(&multipliers[..2]), stable(&multipliers[2..])) {
+        (true, ..) => "unstable",
+        (false, true, _) => "stable in the orbit's plane, unstable out of it",
+        (false, _, true) => "unstable in the orbit's plane, stable out of it",
+        _ => "unstable in the orbit's plane and out of it",
+    };
+    let time = lock.shape.period() / largest(multipliers).ln();
+    let (orbits, time) = (Short::rounded(time / TAU, 3), Short::rounded(time / lock.mean_motion, 3));
     format!(
         "the resonance {about} is {how}: a small angle grows by a factor e in {time} units of time ({orbits} orbits)"
     )

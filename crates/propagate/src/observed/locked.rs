@@ -1,19 +1,15 @@
 //! A scene of a body that is locked to an orbit: relaxed, or with free librations ([`crate::libration::relaxed`]).
 
 use std::f64::consts::TAU;
-use std::ops::RangeInclusive;
 use std::sync::atomic::AtomicBool;
 
 use super::scene_about_principal_axes;
 use crate::error::Error;
 use crate::input::body::Body;
 use crate::input::scene::Scene;
-use crate::libration::lock::Lock;
+use crate::libration::lock::{Lock, MOST_IN_TWO};
 use crate::libration::relaxed;
 use crate::orbit::elements::Orbit;
-
-/// Rotations in two orbits.
-const RESONANCES: RangeInclusive<f64> = 1.0..=8.0;
 
 /// Which state of a locked body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +35,7 @@ impl LockedState {
     fn validate(&self) -> Result<(), Error> {
         let refused = |argument, index, value, bound| Err(Error::Number { argument, index, value, bound });
         let twice = 2.0 * self.resonance;
-        if twice != twice.round() || !RESONANCES.contains(&twice) {
+        if twice != twice.round() || !(1.0..=f64::from(MOST_IN_TWO)).contains(&twice) {
             return refused("resonance", None, self.resonance, "1/2, 1, 3/2, 2, 5/2, 3, 7/2 or 4 rotations an orbit");
         }
         for (index, &value) in self.amplitudes.iter().enumerate() {

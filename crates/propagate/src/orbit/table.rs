@@ -3,7 +3,7 @@
 //! Between two times the position is a polynomial: of degree seven through the eight nearest positions, or, where the table has velocities, of degree eleven through the six nearest
 //! positions and their velocities (Hermite), and through fewer rows in a segment that has no more. Two equal times of a table with velocities are the edge of two segments, and no polynomial passes it. The error bound of a motion contains the
 //! interpolation error, which is estimated with the polynomials through rows that begin one earlier and one later. Where the eighth derivative is constant, they differ
-//! from the polynomial by 2 to 2.7 times its error (with velocities by 1.3 times, in the mean over an interval), in the direction of the error. Where the polynomials do not converge,
+//! from the polynomial by 2 to 2.7 times its error (with velocities by 1.0 times, in the mean over an interval), in the direction of the error. Where the polynomials do not converge,
 //! because a pericentre lies between few times, all of them pass it far outside and agree on a torque that is too weak. A table is therefore
 //! refused if the departure in the middle of an interval is a tenth of the distance.
 
@@ -17,10 +17,12 @@ use crate::numerics::scaling::scaled;
 
 /// Positions through which a polynomial passes.
 const POSITIONS: usize = 8;
-/// Rows of positions and velocities through which a polynomial passes, and the least in a segment.
-const ROWS: [usize; 2] = [6, 2];
-/// Coefficients of a polynomial.
-pub(crate) const COEFFICIENTS: usize = 2 * ROWS[0];
+/// Rows of positions and velocities through which a polynomial passes, where a segment has as many.
+const ROWS: usize = 6;
+/// The least number of rows of a segment.
+const LEAST: usize = 2;
+/// The most coefficients of a polynomial.
+pub(crate) const COEFFICIENTS: usize = 2 * ROWS;
 
 /// Positions of the disturbing body relative to the rotating body, in inertial components. Only the integrated method uses them.
 ///
@@ -84,17 +86,17 @@ impl TabulatedOrbit {
             if !time.is_finite() {
                 return refused("times", index, time, "finite");
             }
-            if index > 0 && time <= times[index - 1] && !segments.contains(&index) {
-                let bound = if velocities.is_some() {
-                    "greater than the one before it, or equal to it"
-                } else {
-                    "greater than the one before it"
-                };
-                return refused("times", index, time, bound);
+            let Some(before) = index.checked_sub(1).map(|before| times[before]) else { continue };
+            match velocities {
+                None if time <= before => return refused("times", index, time, "greater than the one before it"),
+                Some(_) if time < before => {
+                    return refused("times", index, time, "greater than the one before it, or equal to it");
+                }
+                _ => {}
             }
         }
         let ends = segments[1..].iter().copied().chain([times.len()]);
-        let least = if velocities.is_some() { ROWS[1] } else { POSITIONS };
+        let least = if velocities.is_some() { LEAST } else { POSITIONS };
         if let Some(found) = segments.iter().zip(ends).map(|(first, end)| end - first).find(|rows| *rows < least) {
             return Err(Error::TooFew { argument: "times", found, least });
         }
@@ -167,7 +169,7 @@ impl TabulatedOrbit {
         let segment = self.segments.partition_point(|first| *first <= interval);
         let first = self.segments[segment - 1];
         let end = self.segments.get(segment).copied().unwrap_or(self.times.len());
-        let most = if self.velocities.is_some() { ROWS[0] } else { POSITIONS };
+        let most = if self.velocities.is_some() { ROWS } else { POSITIONS };
         let rows = most.min(end - first);
         let own = (interval + 1).saturating_sub(rows / 2).max(first).min(end - rows);
         let Some(earlier) = earlier else { return own..own + rows };

@@ -231,8 +231,11 @@ class Fit:
 
     def __repr__(self) -> str:
         motion = free_motion(self.scene)
-        precession, rotation = motion.periods["extremal-axis"]
-        of_motion = f"{motion.plan.mode}, P_φ={precession:.6g}, P_ψ={rotation:.6g}"
+        if "spin" in self._steps.free:
+            of_motion = f"principal-axis, P={2 * np.pi / np.linalg.norm(self.scene.angular_velocity):.6g}"
+        else:
+            precession, rotation = motion.periods["extremal-axis"]
+            of_motion = f"{motion.plan.mode}, P_φ={precession:.6g}, P_ψ={rotation:.6g}"
         return f"Fit({of_motion}, reduced χ²={self.reduced_chi_square:.4g}, {len(self.parameters)} parameters, {self.residuals.size} data)"
 
     def __str__(self) -> str:

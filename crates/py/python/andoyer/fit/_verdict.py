@@ -1,7 +1,7 @@
 """`Verdict`: how far light curves determine periods, pole and mode, from the minima of χ² and the hypothesis of simple rotation.
 
 Differences of χ² are divided by a scale: the reduced χ² of the best fit if it is above 1, for what the model cannot show, times the correlation of neighbouring residuals, for what is
-counted several times. A rival is a minimum whose scaled Δχ² is below `NEAR`. The bounds are calibrated on simulated data sets (docs/data/verdicts.csv).
+counted several times. A rival is a minimum whose scaled Δχ² is below `NEAR`. The bounds are chosen and not calibrated: benches/verdicts.py measures on simulated data how often they are right.
 """
 
 from __future__ import annotations

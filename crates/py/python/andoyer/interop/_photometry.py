@@ -17,8 +17,8 @@ import numpy as np
 from andoyer._core import FileError
 from andoyer._quaternions import Array
 from andoyer._refusal import unreadable
+from andoyer.output.message import NUMBER
 
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 WHOLE = re.compile(r"\d{1,9}", re.ASCII)
 KEYWORD = re.compile(r"([A-Z][A-Z0-9_]*)\s*=\s*(.*)", re.ASCII)
 CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")

@@ -22,6 +22,7 @@ from andoyer._quaternions import Array, rotate
 from andoyer._refusal import refusal, unreadable
 from andoyer.interop._foreign import epoch_of
 from andoyer.output.files import whole_file
+from andoyer.output.message import NUMBER
 
 DEGREES_A_DAY = np.pi / 180 / 86400
 """1 deg/day in rad/s."""
@@ -29,7 +30,6 @@ NEAR_SECOND = 1e-6
 """Seconds by which an epoch may miss a whole one, which alone the format can hold."""
 
 TOKEN = re.compile(r"\{([^}]*)\}|([^\s{}]+)|([{}])")
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 DATE = ("year", "month", "day", "hour", "minute", "second")
 STATE = (*(f"angle {axis}" for axis in range(3)), *(f"spin {axis}" for axis in range(3)), *(f"moment of inertia {axis}" for axis in range(3)))
 CHANGES = (*(f"spin {axis} dot" for axis in range(3)), "libration amplitude", "libration frequency", "libration phase")
