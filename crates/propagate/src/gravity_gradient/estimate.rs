@@ -43,7 +43,7 @@ pub(crate) fn errors(
     let drift = response.drift(change) * change * duration;
     let drift = match level {
         Level::SecondOrder => drift * change * largest(|orbit| orbit.envelope.cube),
-        _ => drift * largest(|orbit| orbit.envelope.square),
+        _ => drift * corrections.iter().zip(orbits).map(|(terms, orbit)| share(terms, orbit)).fold(0.0, f64::max),
     };
     let omitted = corrections.iter().zip(orbits).map(|(corrections, orbit)| omitted(corrections, &response, orbit));
     // Rounding of σ to a double in the phases. The iteration to the mean M and L ends at its own threshold.
@@ -77,6 +77,12 @@ pub(crate) fn by_orbit(request: &Request<'_>, orbit: &Disturbance<'_>, error: f6
         Averaging::Spin if too_far => Err(Error::TooManyOrbits { orbits, bound: MOST_ORBITS as f64 }),
         Averaging::Spin => Ok(false),
     }
+}
+
+/// The mean square of the changes by all terms over the span, over the square of their largest ones. The sums over time derivatives fall with (a/r)³; a slow term with exact
+/// divisors has the same size around the whole orbit.
+fn share(Corrections { exact: [largest, mean], .. }: &Corrections, orbit: &Disturbance<'_>) -> f64 {
+    (1.0 - largest) * orbit.envelope.square + mean.max(largest * orbit.envelope.square)
 }
 
 /// The error by the terms that the level omits: short-period terms, and the tilt in the averages.

@@ -43,6 +43,8 @@ pub(crate) struct Corrections {
     pub(crate) resonant: f64,
     /// The root of the sum of the squared sizes of all terms that are not slow, and of the slow ones that are corrected \[rad\].
     pub(crate) rms: f64,
+    /// The part of the squared sizes of the terms with exact divisors in the square of `rms`, and their mean squares ([`Regime::Exact`]) over the same.
+    pub(crate) exact: [f64; 2],
     /// Error of the attitude by dropped terms, and by truncated sums at the epoch and at the time of evaluation \[rad\].
     pub(crate) dropped: f64,
     /// Sum of the terms that the level omits, over the span \[rad\].
@@ -93,11 +95,12 @@ impl Corrections {
             collected.add(term, regime, inertia, (&regimes, disturbance));
         }
         let generator = collected.generator(inertia, (&regimes, disturbance));
-        let Collected { squares, dropped, neglected, count, .. } = collected;
+        let Collected { squares, exact_squares, dropped, neglected, count, .. } = collected;
         Ok(Self {
             generator,
             resonant,
             rms: squares.sqrt(),
+            exact: exact_squares.map(|part| if squares > 0.0 { part / squares } else { 0.0 }),
             dropped,
             omitted: terms.omitted.iter().map(|term| regimes.whole(term)).sum(),
             axial_omitted: axial_omitted(inertia, disturbance),
@@ -140,6 +143,8 @@ struct Collected {
     orders: usize,
     /// As in [`Corrections`], but for `squares`, the sum of the squared sizes.
     squares: f64,
+    /// The sums of the squared sizes and of the mean squares of the terms with exact divisors.
+    exact_squares: [f64; 2],
     dropped: f64,
     neglected: f64,
     count: usize,
@@ -156,7 +161,7 @@ impl Collected {
     ) {
         let growth = regimes.growth(term.multiple);
         match (*regime, &disturbance.series) {
-            (Regime::Exact { resonant, size }, Some(series)) => {
+            (Regime::Exact { resonant, size, square }, Some(series)) => {
                 let divisors = regimes.divisors(term).with_resonant(resonant);
                 self.exact.push(ExactTerm::new(
                     term,
@@ -165,6 +170,8 @@ impl Collected {
                     (regimes.nothing, disturbance.unit()),
                 ));
                 self.squares += size * size;
+                self.exact_squares[0] += size * size;
+                self.exact_squares[1] += square;
                 self.dropped += growth * regimes.nothing;
                 self.count += 1;
             }

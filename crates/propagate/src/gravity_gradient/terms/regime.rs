@@ -40,6 +40,8 @@ pub(crate) enum Regime {
         resonant: Option<i32>,
         /// Largest change of the attitude by all other harmonics \[rad\].
         size: f64,
+        /// Mean square of that change over an orbit, by Parseval's theorem, and as much at the epoch \[rad²\].
+        square: f64,
     },
     /// Not at all: the term is too slow.
     Slow,
@@ -128,9 +130,9 @@ impl<'a> Regimes<'a> {
             let nearest = self.nearest(term);
             let visible = term.size_at(nearest.distance.max(1.0 / self.orbit.duration)) > self.nothing;
             if visible && (slow || self.sum(term).1 > enough || self.turned(term, nearest) > self.nothing) {
-                let (resonant, size) = self.exact(term, nearest);
+                let (resonant, size, square) = self.exact(term, nearest);
                 if !slow || (size > self.nothing && size <= LARGEST_CORRECTED) {
-                    return Regime::Exact { resonant, size };
+                    return Regime::Exact { resonant, size, square };
                 }
             }
         }
@@ -257,14 +259,16 @@ impl<'a> Regimes<'a> {
         self.turned(term, low).max(self.turned(term, self.nearest(term)))
     }
 
-    /// For a term with exact divisors, the harmonic whose solution vanishes at the epoch, and the size of the change by all others.
-    fn exact(&self, term: &Term, nearest: Nearest) -> (Option<i32>, f64) {
+    /// For a term with exact divisors, the harmonic whose solution vanishes at the epoch, and the size and the square of [`Regime::Exact`].
+    fn exact(&self, term: &Term, nearest: Nearest) -> (Option<i32>, f64, f64) {
         let at_epoch = self.epoch_solution_error(term, nearest, self.moved(term, nearest));
         let resonant = (self.corrected(term, nearest) > at_epoch).then_some(nearest.number);
         let divisors = self.divisors(term);
         let count = self.orbit.series.as_ref().map_or(0, |series| series.coefficients.len() as i32);
         let others = (1 - count..count).filter(|j| resonant != Some(*j));
-        (resonant, others.map(|j| self.amplitude(j) * term.size_at(divisors.smallest(j).abs())).sum())
+        let sizes = others.map(|j| self.amplitude(j) * term.size_at(divisors.smallest(j).abs()));
+        let [size, squares] = sizes.fold([0.0; 2], |[sum, squares], size| [sum + size, squares + size * size]);
+        (resonant, size, (2.0 * squares).min(size * size))
     }
 
     fn nearest(&self, term: &Term) -> Nearest {
