@@ -72,7 +72,7 @@ impl Evolution {
     }
 
     /// What becomes of it beyond the separatrix: for each mode and sense that members with evenly spread phases reach, the share of the members and the averaged motion of one of them up to the
-    /// end of the span, the most frequent first. Their starts are spread over some wobbles, too. An evolution that ends otherwise is its own, with the share 1.
+    /// end of the span, the most frequent first. Their starts are spread over some wobbles, too. In the passage a torque across the angular momentum takes the power of inner friction. An evolution that ends otherwise is its own, with the share 1.
     ///
     /// # Errors
     /// - [`Error::Number`] for no members; those of [`Scene::solve`] and [`Scene::evolve`]; [`Error::NotAveraged`] if a member stays at the separatrix.
@@ -92,7 +92,7 @@ impl Evolution {
         for member in 0..members {
             let [first, second, third] = EVEN.map(|step| (origin + (member as f64 + 0.5) * step).fract());
             let from = start + third * (earliest - start);
-            let scene = self.motion_at(from, [first, second])?;
+            let scene = self.with_friction(&self.motion_at(from, [first, second])?)?;
             let (family, scene) = self.passed(scene, (end.time - from, distance, wobble), stop)?;
             match found.iter_mut().find(|one| one.0 == family) {
                 Some(one) => one.1 += 1,
@@ -103,6 +103,7 @@ impl Evolution {
         let [first, last] = self.span();
         let evolved = |(_, count, scene): (ModeFamily, usize, Scene)| {
             let time = scene.state().epoch;
+            let scene = self.scene().with_state(*scene.state());
             let span = if end.time < start { [first.min(time), time] } else { [time, last.max(time)] };
             let options = EvolveOptions::default().span(span[0], span[1]).average(self.average());
             let evolution = scene.evolve(options.tolerance(self.tolerance()).until(stop))?;

@@ -120,6 +120,7 @@ pub mod torques {
     pub use crate::evolution::obj::Mesh;
     #[cfg(feature = "torques")]
     pub use crate::evolution::sphere::SphereRule;
+    pub use crate::input::energy_loss::{EnergyLoss, LossState};
     pub use crate::input::torque::{PolynomialTorque, SourcePath, Torque, TorqueSource};
 }
 
@@ -130,6 +131,7 @@ pub mod evolutions {
     pub use crate::evolution::drift::Drift;
     pub use crate::evolution::evolve::{Evolution, EvolutionPlan, EvolveOptions};
     pub use crate::evolution::path::EvolutionEnd;
+    pub use crate::evolution::resonances::PassedResonance;
     pub use crate::evolution::weakness::EndReason;
 }
 

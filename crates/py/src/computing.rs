@@ -36,10 +36,20 @@ pub(crate) fn interruptible<T: Send, E: Send>(
     exception: impl FnOnce(E) -> PyErr,
     compute: impl FnOnce(&AtomicBool) -> Result<T, E> + Send,
 ) -> PyResult<T> {
-    let stop = AtomicBool::new(false);
     if !long {
-        return detached(py, exception, || compute(&stop));
+        return detached(py, exception, || compute(&AtomicBool::new(false)));
     }
+    interruptible_with(py, &mut |py| py.check_signals(), exception, compute)
+}
+
+/// As a `long` [`interruptible`] call. An exception of `look` in the main thread stops it, too.
+pub(crate) fn interruptible_with<T: Send, E: Send>(
+    py: Python<'_>,
+    look: &mut (impl FnMut(Python<'_>) -> PyResult<()> + Send),
+    exception: impl FnOnce(E) -> PyErr,
+    compute: impl FnOnce(&AtomicBool) -> Result<T, E> + Send,
+) -> PyResult<T> {
+    let stop = AtomicBool::new(false);
     let mut work = Some(compute);
     let mut raised = None;
     #[expect(clippy::disallowed_methods, reason = "this is where panics are caught")]
@@ -54,7 +64,7 @@ pub(crate) fn interruptible<T: Send, E: Send>(
             let Ok(thread) = thread else { return None };
             while receiver.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
                 if raised.is_none() {
-                    raised = Python::attach(|py| py.check_signals()).err();
+                    raised = Python::attach(&mut *look).err();
                     stop.store(raised.is_some(), Ordering::Relaxed);
                 }
             }

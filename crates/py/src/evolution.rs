@@ -1,5 +1,7 @@
 //! `Scene.drift`, `Scene.evolve`, `andoyer.Drift`, `andoyer.Evolution` and what it returns.
 
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+
 use andoyer_propagate::evolutions::{self, EvolveOptions, Evolved};
 use andoyer_propagate::options::Averaging;
 use andoyer_series::error::Kind;
@@ -8,12 +10,16 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::array::{self, Times};
-use crate::computing::{detached, interruptible};
+use crate::computing::{detached, interruptible, interruptible_with};
 use crate::error;
 use crate::foreign::{self, Calendar};
+use crate::material::{calling, exception};
 use crate::order::whole_number;
 use crate::scene_class::Scene;
 use crate::values::immutable;
+
+/// Most members of an evolution.
+const MOST_MEMBERS: usize = 10_000;
 
 #[pymethods]
 impl Scene {
@@ -38,7 +44,7 @@ impl Scene {
     #[pyo3(signature = (*, average="auto"))]
     fn drift(&self, py: Python<'_>, average: &str) -> PyResult<Drift> {
         let average = averaging(average)?;
-        detached(py, error::propagation, || self.scene.drift(average)).map(Drift)
+        detached(py, exception, || calling(|| self.scene.drift(average))).map(Drift)
     }
 
     /// The motion averaged over the rotation, over years to millions of years: angular momentum and excess of energy, without attitude and phases.
@@ -54,6 +60,10 @@ impl Scene {
     ///     follows all sources. "auto" averages over orbits if an orbit changes direction and excess by less than 0.01.
     /// tolerance : float, optional
     ///     Largest relative error of a step of the integration. The averages themselves leave out terms of the second order in the torque.
+    /// members : int, optional
+    ///     Number of members with other phases at the epoch that are followed, too, for `Evolution.members` and `end.spread`; at most 10,000.
+    /// progress : callable, optional
+    ///     Called as ``progress(done, of)`` with hundredths of the work.
     ///
     /// Returns
     /// -------
@@ -75,13 +85,18 @@ impl Scene {
     /// >>> evolution = scene.evolve((0, 1e9))
     /// >>> evolution.end.reason, (evolution.at(1e9).spin_period / evolution.at(0).spin_period).round(6)
     /// ('span', np.float64(2.718282))
-    #[pyo3(signature = (span=None, *, average="auto", tolerance=None), text_signature = "($self, span=None, *, average='auto', tolerance=1e-06)")]
+    #[pyo3(
+        signature = (span=None, *, average="auto", tolerance=None, members=None, progress=None),
+        text_signature = "($self, span=None, *, average='auto', tolerance=1e-06, members=None, progress=None)"
+    )]
     fn evolve(
         &self,
         py: Python<'_>,
         span: Option<&Bound<'_, PyAny>>,
         average: &str,
         tolerance: Option<&Bound<'_, PyAny>>,
+        members: Option<&Bound<'_, PyAny>>,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<Evolution> {
         let mut options = EvolveOptions::default().average(averaging(average)?);
         if let Some(span) = span {
@@ -91,8 +106,27 @@ impl Scene {
         if let Some(tolerance) = tolerance {
             options = options.tolerance(array::number("tolerance", tolerance)?);
         }
-        let evolve = |stop: &std::sync::atomic::AtomicBool| self.scene.evolve(options.until(stop));
-        let evolution = interruptible(py, true, error::propagation, evolve)?;
+        if let Some(members) = members {
+            options = options.members(whole_number("members", members, 0, MOST_MEMBERS, Kind::Input)?);
+        }
+        let done = AtomicU32::new(0);
+        let mut told = 0;
+        let mut look = |py: Python<'_>| {
+            py.check_signals()?;
+            let share = done.load(Ordering::Relaxed) / 10;
+            match &progress {
+                Some(progress) if share != told => {
+                    told = share;
+                    progress.call1(py, (share, 100)).map(drop)
+                }
+                _ => Ok(()),
+            }
+        };
+        let evolve = |stop: &AtomicBool| calling(|| self.scene.evolve(options.reporting(&done).until(stop)));
+        let evolution = interruptible_with(py, &mut look, exception, evolve)?;
+        if let Some(progress) = progress {
+            progress.call1(py, (100, 100))?;
+        }
         Ok(Evolution { evolution, calendar: self.calendar })
     }
 }
@@ -200,7 +234,7 @@ impl Evolution {
     ///     A time outside, or that is not finite.
     fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<EvolvedStates> {
         let (values, leading) = self.times(times)?;
-        let states = detached(py, error::propagation, || self.evolution.at(&values))?;
+        let states = detached(py, exception, || calling(|| self.evolution.at(&values)))?;
         Ok(EvolvedStates { states, leading })
     }
 
@@ -216,7 +250,7 @@ impl Evolution {
     ///     Of the angular momentum, over its size, and of the excess of energy.
     fn band<'py>(&self, py: Python<'py>, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let (values, leading) = self.times(times)?;
-        let bands = detached(py, error::propagation, || self.evolution.band(&values))?;
+        let bands = detached(py, exception, || calling(|| self.evolution.band(&values)))?;
         bands.as_flattened().to_vec().into_pyarray(py).reshape([&leading[..], &[2]].concat())
     }
 
@@ -253,7 +287,7 @@ impl Evolution {
             ));
         }
         let phases = array::fixed("phases", phases)?;
-        let scene = detached(py, error::propagation, || self.evolution.motion_at(time, phases))?;
+        let scene = detached(py, exception, || calling(|| self.evolution.motion_at(time, phases)))?;
         Ok(Scene { calendar: self.calendar_at(py, time)?, ..scene.into() })
     }
 
@@ -287,8 +321,8 @@ impl Evolution {
             value.map_or(Ok(default), |value| whole_number(name, value, least, usize::MAX >> 1, Kind::Input))
         };
         let (members, seed) = (number("members", members, 1, 64)?, number("seed", seed, 0, 0)?);
-        let pass = |stop: &std::sync::atomic::AtomicBool| self.evolution.through(members, seed as u64, stop);
-        let passages = interruptible(py, true, error::propagation, pass)?;
+        let pass = |stop: &AtomicBool| calling(|| self.evolution.through(members, seed as u64, stop));
+        let passages = interruptible(py, true, exception, pass)?;
         let of = |(share, evolution): (f64, evolutions::Evolution)| {
             let calendar = self.calendar_at(py, evolution.scene().state().epoch)?;
             Ok((share, Self { evolution, calendar }))
@@ -305,7 +339,13 @@ impl Evolution {
     /// What is known of its error; each call integrates the full equations over thirty rotations.
     #[getter]
     fn plan(&self, py: Python<'_>) -> PyResult<EvolutionPlan> {
-        detached(py, error::propagation, || self.evolution.plan()).map(EvolutionPlan)
+        detached(py, exception, || calling(|| self.evolution.plan())).map(EvolutionPlan)
+    }
+
+    /// The ends of the members that `evolve` was asked for: the same momentum and energy at the epoch with evenly spread phases.
+    #[getter]
+    fn members(&self) -> Vec<EvolutionEnd> {
+        self.evolution.members().iter().map(|end| EvolutionEnd(*end, None)).collect()
     }
 
     /// The first and the last time that it reaches.
@@ -369,7 +409,8 @@ impl EvolutionEnd {
         self.0.time
     }
 
-    /// Of the separatrix the time in which the averages pass what they leave out: it is reached earlier or later by about this. None for other reasons.
+    /// How much earlier or later it may end. With ``members=`` of `Scene.evolve` the standard deviation of the members that end for the same reason. Otherwise, at the separatrix, the time in which the averages pass what they
+    /// leave out; None for other reasons.
     #[getter]
     fn spread(&self) -> Option<f64> {
         self.1
@@ -389,7 +430,7 @@ immutable!(EvolutionPlan);
 
 #[pymethods]
 impl EvolutionPlan {
-    /// Estimated error of the angular momentum at the farther end, over its size at the epoch: the rate of second order times the time, and the truncation times the change. Resonances on the way are not in it.
+    /// Estimated error of the angular momentum at the farther end, over its size at the epoch: the rate of second order times the time, the truncation times the change, and the jumps of `resonances`.
     #[getter]
     fn error_bound(&self) -> f64 {
         self.0.error_bound
@@ -405,6 +446,15 @@ impl EvolutionPlan {
     #[getter]
     fn second_order(&self) -> (f64, f64) {
         self.0.second_order.into()
+    }
+
+    /// Resonances h dℓ′/dt + m dy′/dt = 0 between wobble and rotation that are passed: tuples (h, m, time, jump, capture).
+    ///
+    /// `jump` is the largest change of the angular momentum by the passage, over its size; it depends on lost phases. It is listed if it is above the tolerance of `evolve`. If `capture` is true, the motion may stay in resonance from there on: the evolution is one of several.
+    #[getter]
+    fn resonances(&self) -> Vec<(i32, i32, f64, f64, bool)> {
+        let of = |one: &evolutions::PassedResonance| (one.wobble, one.turn, one.time, one.jump, one.may_capture());
+        self.0.resonances.iter().map(of).collect()
     }
 
     fn __repr__(&self) -> String {

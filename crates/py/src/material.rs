@@ -63,10 +63,30 @@ thread_local! {
     static FAILURE: Cell<Option<PyErr>> = const { Cell::new(None) };
 }
 
+/// An error of a computation, or the exception of a function of Python in it.
+pub(crate) enum Failed {
+    Computation(Error),
+    Function(PyErr),
+}
+
+/// Computes in this thread, where functions of Python are called.
+pub(crate) fn calling<T>(compute: impl FnOnce() -> Result<T, Error>) -> Result<T, Failed> {
+    FAILURE.take();
+    compute().map_err(|error| FAILURE.take().map_or(Failed::Computation(error), Failed::Function))
+}
+
+/// The exception of a computation that failed.
+pub(crate) fn exception(failed: Failed) -> PyErr {
+    match failed {
+        Failed::Computation(error) => error::propagation(error),
+        Failed::Function(exception) => exception,
+    }
+}
+
 /// The value of a function of Python; NaN if it fails.
-fn value(function: &Py<PyAny>, frequency: f64) -> f64 {
+pub(crate) fn value(function: &Py<PyAny>, argument: f64) -> f64 {
     let called = Python::attach(|py| {
-        let value = function.bind(py).call1((frequency,))?;
+        let value = function.bind(py).call1((argument,))?;
         // A relaxation calls the function some 5e4 times, and `number` takes longer than many functions.
         if value.is_exact_instance_of::<PyFloat>() { value.extract() } else { number("loss", &value) }
     });
@@ -83,8 +103,7 @@ impl Material {
         py: Python<'_>,
         compute: impl FnOnce() -> Result<T, Error> + Send,
     ) -> PyResult<T> {
-        FAILURE.take();
-        detached(py, error::propagation, compute).map_err(|problem| FAILURE.take().unwrap_or(problem))
+        detached(py, exception, || calling(compute))
     }
 }
 

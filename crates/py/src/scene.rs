@@ -327,8 +327,18 @@ impl Scene {
     }
 
     /// Writes the scene as TOML text. `from_toml` reads this text from a file as an equal scene.
-    fn to_toml(&self) -> String {
-        self.scene.to_toml()
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A scene with `Torque.dissipation`: a file holds no function.
+    fn to_toml(&self) -> PyResult<String> {
+        if self.scene.asked_torques().iter().any(|torque| torque.kind() == "dissipation") {
+            let message =
+                "torques has a dissipation, a function that a scene file cannot hold: write the scene without it";
+            return Err(error::input("torques", "dissipation", "without a dissipation", message.to_owned()));
+        }
+        Ok(self.scene.to_toml())
     }
 
     /// Solves the scene: computes everything that does not depend on time, and returns the motion.

@@ -1,12 +1,16 @@
 //! `andoyer.Torque`.
 
-use andoyer_propagate::torques::{SourcePath, Torque as Inner, TorqueSource};
+use std::sync::Arc;
+
+use andoyer_propagate::torques::{EnergyLoss, SourcePath, Torque as Inner, TorqueSource};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::array::{fixed, is_matrix, matrix, number};
+use crate::dissipation::Dissipation;
 use crate::error::{self, InternalError};
+use crate::material::value;
 use crate::orbit::Orbit;
 use crate::scene::arguments::kind;
 use crate::tabulated::TabulatedOrbit;
@@ -90,6 +94,39 @@ impl Torque {
         made(Inner::rotor(fixed("momentum", momentum)?))
     }
 
+    /// Inner friction, which takes energy at constant angular momentum: a term of `Scene.evolve` and `Scene.drift` alone. A scene with it is not solved.
+    ///
+    /// Parameters
+    /// ----------
+    /// loss : Dissipation or callable
+    ///     A callable takes the excess of energy ξ (`Evolution`) and returns the power that is lost, in moment × rate³: at least 0, and 0 for ξ = 0.
+    ///
+    /// Raises
+    /// ------
+    /// TypeError
+    ///     Neither of both.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0], torques=[Torque.dissipation(lambda excess: 1e-9 * excess)])
+    /// >>> evolution = scene.evolve((0, 1e9))
+    /// >>> bool(evolution.at(1e9).excess < evolution.at(0).excess)
+    /// True
+    #[classmethod]
+    fn dissipation(_class: &Bound<'_, PyType>, loss: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let origin = Arc::new(loss.clone().unbind());
+        let made = if let Ok(dissipation) = loss.cast::<Dissipation>() {
+            EnergyLoss::from(dissipation.get().inner.clone())
+        } else if loss.is_callable() {
+            let called = Arc::clone(&origin);
+            EnergyLoss::of_excess(move |excess| Ok(value(&called, excess)))
+        } else {
+            let said = format!("loss must be a Dissipation or a callable of the excess of energy, not {}", kind(loss));
+            return Err(PyTypeError::new_err(said));
+        };
+        Ok(Self(Inner::Dissipation(made.with_origin(origin))))
+    }
+
     /// Three polynomials in directions and rates, times powers of distances.
     ///
     /// Parameters
@@ -170,7 +207,7 @@ impl Torque {
         made(torque.and_then(|torque| torque.truncated(truncation)))
     }
 
-    /// The kind: "constant", "damping", "rotor" or "polynomial".
+    /// The kind: "constant", "damping", "rotor", "polynomial" or "dissipation".
     #[getter]
     fn kind(&self) -> &'static str {
         self.0.kind()
@@ -222,6 +259,10 @@ impl Torque {
             Inner::Polynomial(torque) => {
                 let [texts, sources, powers, distances] = self.of_polynomial(py)?;
                 ("_polynomial", (texts, sources, powers, distances, torque.truncation()).into_pyobject(py)?)
+            }
+            Inner::Dissipation(loss) => {
+                let origin = loss.origin().and_then(|origin| origin.downcast_ref::<Py<PyAny>>());
+                ("dissipation", PyTuple::new(py, [origin.map(|origin| origin.clone_ref(py))])?)
             }
             _ => return Err(InternalError::new_err("a fault of this package, please report it: an unknown torque")),
         })

@@ -8,6 +8,7 @@ use super::material::{Material, positive, refused};
 use super::size::{Size, flat, given, shape};
 use crate::error::Error;
 use crate::input::body::Body;
+use crate::input::energy_loss::{EnergyLoss, LossState};
 use crate::input::scene::Scene;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
@@ -282,6 +283,20 @@ impl Dissipation {
         let swing = Swing { long_axis, x: x.to_f64(), complement: complement.to_f64() };
         let tumbles = matches!(mode, Mode::ShortAxis | Mode::LongAxis | Mode::Axisymmetric);
         Ok(Tumbling { mean_rate, swing: tumbles.then_some(swing), separatrix: mode == Mode::Separatrix })
+    }
+}
+
+impl From<Dissipation> for EnergyLoss {
+    fn from(dissipation: Dissipation) -> Self {
+        let unit = dissipation.moment_unit();
+        Self::of_body(dissipation.body.moments(), move |state: &LossState| {
+            let x = state.excess / state.separatrix;
+            if x == 0.0 {
+                return Ok(0.0);
+            }
+            let swing = Swing { long_axis: state.long_axis, x, complement: 1.0 - x };
+            Ok(dissipation.power_at(swing, state.rate)? / unit)
+        })
     }
 }
 

@@ -18,6 +18,8 @@ use crate::torque_free::mode::Mode;
 
 /// A torque is averaged over the orbit if it turns the angular momentum, or changes ξ/ξ_sep, by less than this in an orbit.
 const PER_ORBIT: f64 = 0.01;
+/// Two numbers whose multiples fill a square evenly: powers of the root of x³ = x + 1.
+const EVEN: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 /// Places on the orbit at which this is measured.
 const PLACES: usize = 16;
 
@@ -113,6 +115,13 @@ impl AveragedScene {
         let state = (&self.momentum, self.excess);
         let short = ShortPeriod::new(&self.equations, self.equations.epoch, state)?;
         Ok(short.mean(&self.attitude, &self.momentum))
+    }
+
+    /// The same of states with the same momentum and energy at evenly spread phases.
+    pub(super) fn means_of_members(&self, members: usize) -> Result<Vec<(Vector3<f64>, f64)>, Error> {
+        let short = ShortPeriod::new(&self.equations, self.equations.epoch, (&self.momentum, self.excess))?;
+        let phases = (0..members).map(|member| EVEN.map(|step| TAU * ((member as f64 + 0.5) * step).fract()));
+        Ok(phases.map(|[along, turn]| short.mean_of_angles((along, turn), &self.momentum)).collect())
     }
 
     /// Decides which sources are averaged over their orbits.

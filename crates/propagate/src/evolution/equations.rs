@@ -6,6 +6,7 @@ use super::polhode_means::{EvenMonomial, ExcessPolhode, ModeFamily};
 use super::rows::{RowBuilder, RowGroup, SortedTorque, TorqueTerms, evaluated};
 use super::sources::{MovingSource, View};
 use crate::error::Error;
+use crate::input::energy_loss::{EnergyLoss, LossState};
 use crate::input::scene::Scene;
 use crate::input::torque::{SourcePath, Torque, refused};
 use crate::orbit::disturbing_body::DisturbingBody;
@@ -36,6 +37,8 @@ pub(super) struct AveragedTorques {
     pub(super) epoch: f64,
     pub(super) sources: Vec<MovingSource>,
     parts: Vec<TorquePart>,
+    /// Inner friction.
+    losses: Vec<EnergyLoss>,
     monomials: Vec<EvenMonomial>,
 }
 
@@ -71,8 +74,13 @@ impl AveragedTorques {
     pub(super) fn new(scene: &Scene, family: ModeFamily) -> Result<Self, Error> {
         let (moments, sort) = sorted_axes(scene.body().moments());
         let mut builder = RowBuilder::new(family, &moments);
-        let (mut sources, mut parts) = (Vec::new(), Vec::new());
+        let (mut sources, mut parts, mut losses) = (Vec::new(), Vec::new(), Vec::new());
         for torque in scene.asked_torques() {
+            if let Torque::Dissipation(loss) = torque {
+                loss.check(moments.into())?;
+                losses.push(loss.clone());
+                continue;
+            }
             let (found, own) = sorted_torques(torque, &sort)?;
             for torque in found {
                 let source = torque.source.map(|index| sources.len() + index);
@@ -96,7 +104,38 @@ impl AveragedTorques {
             sources.push(source);
         }
         let monomials = builder.monomials;
-        Ok(Self { moments, family, epoch: scene.state().epoch, sources, parts, monomials })
+        let found = Self { moments, family, epoch: scene.state().epoch, sources, parts, losses, monomials };
+        let uniform = found.loss(scene.state().angular_velocity.norm(), 0.0)?;
+        if uniform == 0.0 {
+            return Ok(found);
+        }
+        Err(refused("dissipation", uniform, "0 at the excess 0, where the body rotates uniformly"))
+    }
+
+    /// The power of inner friction over the largest moment.
+    ///
+    /// # Errors
+    /// Those of its functions.
+    pub(super) fn loss(&self, rate: f64, excess: f64) -> Result<f64, Error> {
+        let separatrix = self.family.alpha(&self.moments).y;
+        let state = LossState { long_axis: !self.family.short, excess, separatrix, rate };
+        self.losses.iter().map(|loss| loss.power_over(self.moments.z, &state)).sum()
+    }
+
+    /// ξ̇ by inner friction, at constant angular momentum.
+    fn excess_rate_by_loss(&self, size: f64, excess: f64) -> Result<f64, Error> {
+        if self.losses.is_empty() {
+            return Ok(0.0);
+        }
+        let rate = size / self.moments.z;
+        // ξ̇ = ∓2IP/M²
+        let of_own = if self.family.short { -1.0 } else { self.moments.x / self.moments.z };
+        Ok(2.0 * of_own * self.loss(rate, excess)? / (rate * rate))
+    }
+
+    /// The same without inner friction, and whether there is any.
+    pub(super) fn without_losses(&self) -> (Self, bool) {
+        (Self { losses: Vec::new(), ..self.clone() }, !self.losses.is_empty())
     }
 
     /// The rates at a state.
@@ -120,7 +159,8 @@ impl AveragedTorques {
         polhode.means(&self.monomials, means);
         let size = momentum.norm();
         let lever = polhode.alpha.add_scalar(-polhode.excess);
-        let mut sum = Rates { momentum: Vector3::zeros(), excess: 0.0 };
+        let loss = if keep(0) { self.excess_rate_by_loss(size, excess)? } else { 0.0 };
+        let mut sum = Rates { momentum: Vector3::zeros(), excess: loss };
         for part in &self.parts {
             match part.source {
                 Some(source) => self.sources[source].views((self.epoch, time), views)?,
@@ -184,7 +224,10 @@ impl AveragedTorques {
             let size = |group: &RowGroup| group.size * (momentum / self.moments.x).powi(group.of_rates);
             sum += weight * part.groups.iter().map(size).sum::<f64>();
         }
-        Ok(sum)
+        // A torque that takes this power.
+        let half = 0.5 * self.family.alpha(&self.moments).y;
+        let rate = momentum / self.moments.z;
+        Ok(sum + self.moments.z * self.loss(rate, half)? / rate)
     }
 }
 
@@ -261,5 +304,7 @@ fn sorted_torques(torque: &Torque, sort: &Matrix3<f64>) -> Result<(Vec<SortedTor
             let bound = "absent: a body with rotors does not rotate as a rigid body alone; integrate the scene";
             Err(refused("rotor", format!("{momentum:?}"), bound))
         }
+        // A term of its own, not a torque.
+        Torque::Dissipation(_) => Ok((Vec::new(), Vec::new())),
     }
 }

@@ -1,12 +1,13 @@
 //! `Scene::evolve`: the averaged motion over a span.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicU32};
 
 use nalgebra::Vector3;
 
 use super::averaged_scene::{AveragedScene, Evolved};
-use super::path::{AveragedPath, EvolutionEnd, Node, Scaled};
+use super::path::{AveragedPath, EvolutionEnd, Node, Scaled, Watch};
 use super::polhode_means::ModeFamily;
+use super::resonances::{PassedResonance, passed};
 use super::short_period::ShortPeriod;
 use super::weakness::EndReason;
 use super::window::second_order;
@@ -25,6 +26,8 @@ pub struct Evolution {
     tolerance: f64,
     /// To the start of the span, and to its end.
     paths: [AveragedPath; 2],
+    /// The ends of members with other phases.
+    members: Vec<EvolutionEnd>,
 }
 
 impl Evolution {
@@ -63,12 +66,20 @@ impl Evolution {
         self.at(times)?.iter().map(one).collect()
     }
 
-    /// The time in which the averages pass what they leave out of ξ at the end: the separatrix is reached earlier or later by about this. `None` for an end of another reason.
+    /// How much earlier or later the end may be. With members it is the standard deviation of the ends of those that end for the same reason. Without, at the separatrix, it is the time in which
+    /// the averages pass what they leave out of ξ; `None` for other reasons.
     ///
     /// # Errors
     /// As [`Evolution::at`].
     pub fn spread(&self) -> Result<Option<f64>, Error> {
         let EvolutionEnd { reason, time } = self.end();
+        let same = self.members.iter().filter(|end| end.reason == reason && reason != EndReason::Span);
+        let times: Vec<f64> = same.map(|end| end.time).collect();
+        if times.len() > 1 {
+            let mean = times.iter().sum::<f64>() / times.len() as f64;
+            let squares = times.iter().map(|time| (time - mean).powi(2)).sum::<f64>();
+            return Ok(Some((squares / (times.len() - 1) as f64).sqrt()));
+        }
         if reason != EndReason::Separatrix {
             return Ok(None);
         }
@@ -81,8 +92,12 @@ impl Evolution {
 
     /// Why and when it ends: towards the end of the span, or towards its start if that is where it stops.
     pub fn end(&self) -> EvolutionEnd {
-        let [backward, forward] = self.paths.each_ref().map(|path| path.end);
-        if forward.reason == EndReason::Span && backward.reason != EndReason::Span { backward } else { forward }
+        end_of(self.paths.each_ref().map(|path| path.end))
+    }
+
+    /// The ends of members with the same momentum and energy at the epoch and evenly spread phases: their averages differ by what the averages leave out.
+    pub fn members(&self) -> &[EvolutionEnd] {
+        &self.members
     }
 
     /// What is known of its error. It integrates the full equations over thirty rotations.
@@ -102,8 +117,14 @@ impl Evolution {
             second_order[0] * (path.end.time - epoch).abs()
                 + truncation * path.nodes.windows(2).map(change).sum::<f64>()
         };
-        let error_bound = self.paths.iter().map(length).fold(0.0, f64::max);
-        Ok(EvolutionPlan { error_bound, truncation, second_order })
+        let mut resonances = Vec::new();
+        let mut error_bound = 0.0_f64;
+        for path in &self.paths {
+            let passed = passed(&self.problem, path, self.tolerance)?;
+            error_bound = error_bound.max(length(path) + passed.iter().map(|one| one.jump).sum::<f64>());
+            resonances.extend(passed);
+        }
+        Ok(EvolutionPlan { error_bound, truncation, second_order, resonances })
     }
 
     /// The first and the last time of the span that it reaches.
@@ -125,6 +146,11 @@ impl Evolution {
     /// The averaged state of a scene of the same body and torques at its epoch.
     pub(crate) fn mean_of(&self, scene: &Scene) -> Result<(Vector3<f64>, f64), Error> {
         AveragedScene::new(scene, self.average())?.mean()
+    }
+
+    /// A scene of the same body and torques, with a torque of a rigid body for inner friction.
+    pub(crate) fn with_friction(&self, scene: &Scene) -> Result<Scene, Error> {
+        AveragedScene::new(scene, self.average())?.with_friction(scene)
     }
 
     /// What follows from an angular momentum and an excess of energy at a time.
@@ -154,16 +180,23 @@ impl Evolution {
     }
 }
 
+/// The end of two ways: towards the end of the span, or towards its start if that is where it stops.
+fn end_of([backward, forward]: [EvolutionEnd; 2]) -> EvolutionEnd {
+    if forward.reason == EndReason::Span && backward.reason != EndReason::Span { backward } else { forward }
+}
+
 /// What is known of the error of an evolution.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct EvolutionPlan {
-    /// Estimated error of the angular momentum at the farther end, over its size at the epoch: the rate of second order times the time, and the truncation times the change. Resonances
-    /// that are passed are not in it.
+    /// Estimated error of the angular momentum at the farther end, over its size at the epoch: the rate of second order times the time, the truncation times the change, and the jumps of the
+    /// resonances that are passed.
     pub error_bound: f64,
     /// What the polynomials of shapes leave out, relative to the torque.
     pub truncation: f64,
     /// Rates at which averages and full equations separate [1/time]: of the angular momentum over its size, and of ξ.
     pub second_order: [f64; 2],
+    /// The resonances between rotation and wobble that are passed.
+    pub resonances: Vec<PassedResonance>,
 }
 
 /// Options of an evolution.
@@ -172,13 +205,17 @@ pub struct EvolveOptions<'a> {
     span: Option<(f64, f64)>,
     average: Averaging,
     tolerance: f64,
+    members: usize,
     stop: &'a AtomicBool,
+    done: &'a AtomicU32,
 }
+
+static UNREAD: AtomicU32 = AtomicU32::new(0);
 
 impl Default for EvolveOptions<'_> {
     /// The span of the scene, the averaging that serves, a tolerance of 1e-6.
     fn default() -> Self {
-        Self { span: None, average: Averaging::Auto, tolerance: 1e-6, stop: &GOING }
+        Self { span: None, average: Averaging::Auto, tolerance: 1e-6, members: 0, stop: &GOING, done: &UNREAD }
     }
 }
 
@@ -199,6 +236,18 @@ impl<'a> EvolveOptions<'a> {
     #[must_use]
     pub fn tolerance(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
+    }
+
+    /// Also follows members with other phases at the epoch, for [`Evolution::members`] and [`Evolution::spread`].
+    #[must_use]
+    pub fn members(self, members: usize) -> Self {
+        Self { members, ..self }
+    }
+
+    /// Writes the share of the work that is done, in thousandths.
+    #[must_use]
+    pub fn reporting(self, done: &'a AtomicU32) -> Self {
+        Self { done, ..self }
     }
 
     /// Ends the integration with [`Error::Stopped`] once the flag is set.
@@ -245,13 +294,23 @@ impl Scene {
         let problem = AveragedScene::new(self, options.average)?;
         let unit = problem.momentum.norm();
         let (momentum, excess) = problem.mean()?;
-        let k = momentum / unit;
-        let node = Node { time: epoch, state: [k.x, k.y, k.z, excess] };
         let (equations, longest) = (&problem.equations, problem.longest_step());
         let mut scaled = Scaled::new(equations, unit);
-        let mut run = |end: f64| AveragedPath::run(&mut scaled, node, (end, longest), tolerance, options.stop);
+        let number = 2 * (1 + options.members);
+        let mut path = 0;
+        let mut run = |(momentum, excess): (Vector3<f64>, f64), end: f64| {
+            let k = momentum / unit;
+            let node = Node { time: epoch, state: [k.x, k.y, k.z, excess] };
+            let watch = Watch { stop: options.stop, done: options.done, path: (path, number) };
+            path += 1;
+            AveragedPath::run(&mut scaled, node, (end, longest), tolerance, watch)
+        };
         // The way to a span beside the epoch belongs to it.
-        let paths = [run(start.min(epoch))?, run(stop.max(epoch))?];
-        Ok(Evolution { scene: self.clone(), problem, span: [start, stop], tolerance, paths })
+        let mut both = |state| Ok::<_, Error>([run(state, start.min(epoch))?, run(state, stop.max(epoch))?]);
+        let paths = both((momentum, excess))?;
+        let means = if options.members > 0 { problem.means_of_members(options.members)? } else { Vec::new() };
+        let ends = means.into_iter().map(|state| Ok(end_of(both(state)?.map(|path| path.end))));
+        let members = ends.collect::<Result<Vec<_>, Error>>()?;
+        Ok(Evolution { scene: self.clone(), problem, span: [start, stop], tolerance, paths, members })
     }
 }

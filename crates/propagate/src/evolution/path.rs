@@ -1,6 +1,6 @@
 //! The averaged motion in one direction of time: steps with their states, and where and why it ends.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use nalgebra::Vector3;
 
@@ -18,6 +18,26 @@ const SEPARATRIX: f64 = 1.0 - 1e-6;
 const NEAREST: f64 = 1.0 - 1e-12;
 /// Errors of the excess are relative to it down to this fraction of that of the separatrix.
 const LEAST_EXCESS: f64 = 1e-14;
+
+/// What another thread sees of an integration: it may stop it, and reads the share that is done.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Watch<'a> {
+    pub(super) stop: &'a AtomicBool,
+    /// In thousandths.
+    pub(super) done: &'a AtomicU32,
+    /// The number of this path, and that of all.
+    pub(super) path: (usize, usize),
+}
+
+impl Watch<'_> {
+    /// # Errors
+    /// - [`Error::Stopped`].
+    fn at(&self, share: f64) -> Result<(), Error> {
+        let (path, paths) = self.path;
+        self.done.store((1000.0 * (path as f64 + share) / paths as f64) as u32, Ordering::Relaxed); // at most 1000
+        going(self.stop).map_err(|_| Error::Stopped)
+    }
+}
 
 /// Where an evolution ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,7 +117,7 @@ impl AveragedPath {
         start: Node,
         (stop, longest): (f64, f64),
         tolerance: f64,
-        halt: &AtomicBool,
+        watch: Watch<'_>,
     ) -> Result<Self, Error> {
         // A step passes over no orbit that is not averaged.
         let least = (stop - start.time).abs() / longest;
@@ -109,7 +129,7 @@ impl AveragedPath {
         let mut slope = scaled.slope(node.time, &node.state)?;
         let mut h = longest.min(first_step(&node.state, &slope));
         while node.time != stop {
-            going(halt).map_err(|_| Error::Stopped)?;
+            watch.at((node.time - start.time) / (stop - start.time))?;
             if nodes.len() > MOST_STEPS {
                 return Err(too_many(f64::INFINITY));
             }

@@ -112,6 +112,15 @@ impl ShortPeriod {
     pub(super) fn mean(&self, attitude: &UnitQuaternion<f64>, momentum: &Vector3<f64>) -> (Vector3<f64>, f64) {
         let g = attitude.inverse() * momentum.normalize();
         let (along, turn) = self.angles(attitude, &g);
+        self.mean_at((along, turn), &g, momentum)
+    }
+
+    /// The mean state of the state on the same polhode with other angles ℓ′ and y′.
+    pub(super) fn mean_of_angles(&self, angles: (f64, f64), momentum: &Vector3<f64>) -> (Vector3<f64>, f64) {
+        self.mean_at(angles, &self.polhode.direction(angles.0.sin_cos()), momentum)
+    }
+
+    fn mean_at(&self, (along, turn): (f64, f64), g: &Vector3<f64>, momentum: &Vector3<f64>) -> (Vector3<f64>, f64) {
         let mut sum = [0.0; 4];
         for ([h, m], term) in &self.terms {
             let wave = Complex::from_polar(1.0, f64::from(*h) * along + f64::from(*m) * turn);

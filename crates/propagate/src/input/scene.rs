@@ -167,6 +167,13 @@ impl Scene {
         Self { state, rate_lows: [0.0; 3], ..self.clone() }
     }
 
+    /// The same scene without the terms of inner friction, which no integration has.
+    pub(crate) fn without_dissipation(&self) -> Self {
+        let mut scene = self.clone();
+        scene.torques.retain(|torque| !matches!(torque, Torque::Dissipation(_)));
+        scene
+    }
+
     /// The same scene without a span.
     pub(crate) fn without_span(self) -> Self {
         Self { span: None, ..self }

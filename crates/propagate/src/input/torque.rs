@@ -6,6 +6,7 @@ use andoyer_double::DoubleDouble;
 use andoyer_series::{Monomial, Polynomial};
 use nalgebra::{Matrix3, Vector3};
 
+use super::energy_loss::EnergyLoss;
 use super::principal_axes::{Square, UNIT, along, product, rounded, transposed};
 use crate::error::Error;
 use crate::orbit::elements::Orbit;
@@ -43,6 +44,8 @@ pub enum Torque {
     Rotor([f64; 3]),
     /// Three polynomials times powers of distances.
     Polynomial(Arc<PolynomialTorque>),
+    /// Inner friction, for [`Scene::evolve`](crate::Scene::evolve) and [`Scene::drift`](crate::Scene::drift) alone: no torque that a rigid body has.
+    Dissipation(EnergyLoss),
 }
 
 /// Three polynomials in the body components of unit vectors to sources and of the angular velocity, times powers of the distances of the sources.
@@ -256,7 +259,7 @@ impl Torque {
             Self::Constant(torque) => finite("constant", torque),
             Self::Damping(matrix) => finite("damping", matrix.as_flattened()),
             Self::Rotor(momentum) => finite("rotor", momentum),
-            Self::Polynomial(_) => Ok(()),
+            Self::Polynomial(_) | Self::Dissipation(_) => Ok(()),
         }
     }
 
@@ -275,6 +278,7 @@ impl Torque {
                 let matrix = product(&transposed(axes), &product(&rows.map(|row| row.map(DoubleDouble::from)), axes));
                 Self::Damping(matrix.map(|row| row.map(DoubleDouble::to_f64)))
             }
+            Self::Dissipation(loss) => Self::Dissipation(loss.clone()),
             Self::Polynomial(torque) => {
                 Self::Polynomial(Arc::new(PolynomialTorque { turn: product(&torque.turn, axes), ..(**torque).clone() }))
             }
@@ -284,7 +288,7 @@ impl Torque {
     /// The largest degree in directions and rates.
     pub fn degree(&self) -> u32 {
         match self {
-            Self::Constant(_) => 0,
+            Self::Constant(_) | Self::Dissipation(_) => 0,
             Self::Damping(_) | Self::Rotor(_) => 1,
             Self::Polynomial(torque) => torque.degree(),
         }
@@ -305,6 +309,7 @@ impl Torque {
             Self::Damping(_) => "damping",
             Self::Rotor(_) => "rotor",
             Self::Polynomial(_) => "polynomial",
+            Self::Dissipation(_) => "dissipation",
         }
     }
 }

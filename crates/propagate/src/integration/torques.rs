@@ -83,6 +83,8 @@ impl Torques {
                 Torque::Damping(rows) => damping += Matrix3::from_fn(|i, k| rows[i][k]),
                 // −ω × h = h × ω.
                 Torque::Rotor(momentum) => linear += Vector3::from(*momentum).cross_matrix(),
+                // Solving refuses it.
+                Torque::Dissipation(_) => {}
                 Torque::Polynomial(torque) => {
                     let of_rates = |(_, powers): &(f64, Vec<u32>)| powers.iter().rev().take(3).any(|power| *power > 0);
                     brakes |= torque.terms().iter().flatten().any(of_rates);

@@ -88,6 +88,10 @@ impl StateTable {
 
 impl TorqueTable {
     fn torque(self) -> Result<Torque, Refusal> {
+        if self.dissipation.is_some() {
+            let bound = "absent: inner friction is a function, and a file holds none";
+            return Err(Refusal::new("torque.dissipation", &format!("must be {bound}"), bound));
+        }
         let no_source = self.source.is_empty() && self.truncation.is_none();
         Ok(match (self.constant, self.damping, self.rotor, self.polynomial) {
             (Some(torque), None, None, None) if no_source => Torque::constant(torque)?,

@@ -55,6 +55,8 @@ pub(super) struct TorqueTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) rotor: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) dissipation: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) polynomial: Option<[String; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) truncation: Option<f64>,

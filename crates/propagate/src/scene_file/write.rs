@@ -50,6 +50,7 @@ impl TorqueTable {
             Torque::Constant(torque) => Self { constant: Some(*torque), ..none },
             Torque::Damping(matrix) => Self { damping: Some(*matrix), ..none },
             Torque::Rotor(momentum) => Self { rotor: Some(*momentum), ..none },
+            Torque::Dissipation(_) => Self { dissipation: Some(true), ..none },
             Torque::Polynomial(torque) => Self {
                 polynomial: Some(torque.texts().clone()),
                 truncation: (torque.truncation() != 0.0).then_some(torque.truncation()),

@@ -227,6 +227,9 @@ class Torque:
     def rotor(cls, momentum: ArrayLike) -> Torque:
         """Rotors with a constant angular momentum relative to the body: a gyrostat. The torque is −ω × h."""
     @classmethod
+    def dissipation(cls, loss: Dissipation | Callable[[float], float]) -> Torque:
+        """Inner friction, which takes energy at constant angular momentum: a term of `Scene.evolve` and `Scene.drift` alone. A scene with it is not solved."""
+    @classmethod
     def polynomial(
         cls,
         texts: Sequence[str],
@@ -376,7 +379,15 @@ class Scene:
         """Writes the scene as TOML text. `from_toml` reads this text from a file as an equal scene."""
     def drift(self, *, average: Literal["auto", "orbit", "spin"] = "auto") -> Drift:
         """The mean rates of angular momentum, excess of energy, spin period and obliquity at the epoch: torques averaged over the rotation (weak torques, section 1)."""
-    def evolve(self, span: ArrayLike | None = None, *, average: Literal["auto", "orbit", "spin"] = "auto", tolerance: float = 1e-06) -> Evolution:
+    def evolve(
+        self,
+        span: ArrayLike | None = None,
+        *,
+        average: Literal["auto", "orbit", "spin"] = "auto",
+        tolerance: float = 1e-06,
+        members: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> Evolution:
         """The motion averaged over the rotation, over years to millions of years: angular momentum and excess of energy, without attitude and phases."""
     def solve(self) -> Motion:
         """Solves the scene: computes everything that does not depend on time, and returns the motion."""
@@ -685,6 +696,9 @@ class Evolution:
     def plan(self) -> EvolutionPlan:
         """What is known of its error; each call integrates the full equations over thirty rotations."""
     @property
+    def members(self) -> list[EvolutionEnd]:
+        """The ends of the members that `evolve` was asked for: the same momentum and energy at the epoch with evenly spread phases."""
+    @property
     def reached(self) -> tuple[float, float]:
         """The first and the last time that it reaches."""
     @property
@@ -719,13 +733,16 @@ class EvolutionPlan:
 
     @property
     def error_bound(self) -> float:
-        """Estimated error of the angular momentum at the farther end, over its size at the epoch: the rate of second order times the time, and the truncation times the change. Resonances on the way are not in it."""
+        """Estimated error of the angular momentum at the farther end, over its size at the epoch: the rate of second order times the time, the truncation times the change, and the jumps of `resonances`."""
     @property
     def truncation(self) -> float:
         """What the polynomials of shapes leave out, relative to the torque."""
     @property
     def second_order(self) -> tuple[float, float]:
         """Rates at which averages and full equations separate, in 1/time: of the angular momentum over its size, and of the excess of energy."""
+    @property
+    def resonances(self) -> list[tuple[int, int, float, float, bool]]:
+        """Resonances h dℓ′/dt + m dy′/dt = 0 between wobble and rotation that are passed: tuples (h, m, time, jump, capture)."""
     def __eq__(self, other: object, /) -> bool: ...
     def __copy__(self) -> EvolutionPlan: ...
     def __deepcopy__(self, _memo: Any) -> EvolutionPlan: ...
