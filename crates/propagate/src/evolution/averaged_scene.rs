@@ -189,7 +189,7 @@ impl AveragedScene {
         let rate = |source: &MovingSource| match (source.ellipse(), source.over_orbit) {
             (Some(orbit), true) => orbit.rates()[0].abs().max(orbit.rates()[1].abs()),
             (Some(orbit), false) => orbit.fastest(),
-            (None, _) => source.table_rate(),
+            (None, _) => source.rate_to_follow(),
         };
         TAU / 6.0 / self.equations.sources.iter().map(rate).fold(0.0, f64::max)
     }

@@ -50,6 +50,7 @@ impl MovingSource {
         let fastest = match &path {
             SourcePath::Orbit(orbit) => fastest_of_orbit(orbit),
             SourcePath::Tabulated(table) => fastest_of_table(table),
+            SourcePath::Field(field) => 2.0 * fastest_of_orbit(field.orbit()) + field.rotation_rate().abs(),
             SourcePath::Direction(_) => 0.0,
         };
         Self { path, power, reference, over_orbit: false, fastest }
@@ -63,11 +64,16 @@ impl MovingSource {
         }
     }
 
-    /// For a table a rate whose sixth of a period is four of its intervals; 0 otherwise.
-    pub(super) fn table_rate(&self) -> f64 {
-        let SourcePath::Tabulated(table) = &self.path else { return 0.0 };
-        let (first, last) = table.ends();
-        TAU / 24.0 * (table.times().len() - 1) as f64 / (last - first)
+    /// The rate of a source that is followed, a sixth of whose period is the longest step: of a table four intervals are a sixth. 0 for others.
+    pub(super) fn rate_to_follow(&self) -> f64 {
+        match &self.path {
+            SourcePath::Tabulated(table) => {
+                let (first, last) = table.ends();
+                TAU / 24.0 * (table.times().len() - 1) as f64 / (last - first)
+            }
+            SourcePath::Field(field) => 2.0 * field.orbit().fastest() + field.rotation_rate().abs(),
+            _ => 0.0,
+        }
     }
 
     /// The directions and weights at a time.
@@ -85,6 +91,7 @@ impl MovingSource {
         let place = match &self.path {
             SourcePath::Orbit(orbit) => orbit.relative_position(epoch, time - epoch)?,
             SourcePath::Tabulated(table) => table.position(time)?.into(),
+            SourcePath::Field(field) => field.at(epoch, time - epoch)?.into(),
             SourcePath::Direction(vector) => Vector3::from(*vector),
         };
         let distance = place.amax() * (place / place.amax()).norm();

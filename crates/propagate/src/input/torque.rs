@@ -10,6 +10,7 @@ use super::energy_loss::EnergyLoss;
 use super::principal_axes::{Square, UNIT, along, product, rounded, transposed};
 use crate::error::Error;
 use crate::orbit::elements::Orbit;
+use crate::orbit::field::DipoleField;
 use crate::orbit::table::TabulatedOrbit;
 
 /// Largest degree of a polynomial.
@@ -80,6 +81,8 @@ pub enum SourcePath {
     Orbit(Orbit),
     /// A body with a table of positions.
     Tabulated(Arc<TabulatedOrbit>),
+    /// The field of a dipole. Its direction is that of the field, and its "distance" the size: with the power −p the torque is multiplied by (|B|/r₀)^p.
+    Field(Arc<DipoleField>),
     /// A fixed inertial direction, of any length.
     Direction([f64; 3]),
 }
@@ -109,7 +112,7 @@ impl TorqueSource {
         match &self.path {
             SourcePath::Orbit(orbit) => orbit.asked_semi_major_axis().is_some(),
             SourcePath::Tabulated(_) => true,
-            SourcePath::Direction(_) => false,
+            SourcePath::Field(_) | SourcePath::Direction(_) => false,
         }
     }
 
@@ -213,6 +216,49 @@ impl Torque {
         let texts = texts.map(str::to_owned);
         let (turn, terms) = (UNIT, [first?, second?, third?]);
         Ok(Self::Polynomial(Arc::new(PolynomialTorque { texts, sources, terms, turn, truncation: 0.0 })))
+    }
+
+    /// m × B of a magnetic moment [unit of the torque over that of the field] in a field: [`SourcePath::Field`], or a table of its vectors.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for NaN or an infinity.
+    pub fn dipole(moment: [f64; 3], field: SourcePath) -> Result<Self, Error> {
+        match moment.iter().find(|part| !part.is_finite()) {
+            Some(part) => Err(refused("moment", part, "finite")),
+            None => Self::steered_dipole(moment.map(|part| format!("{part:?}")).each_ref().map(String::as_str), field),
+        }
+    }
+
+    /// The same of a moment with three polynomials in the rates w1, w2, w3 and in the components b1, b2, b3 of the unit vector along the field.
+    ///
+    /// # Errors
+    /// As [`Torque::polynomial`].
+    pub fn steered_dipole(moment: [&str; 3], field: SourcePath) -> Result<Self, Error> {
+        Self::of_field(cross(moment.map(str::to_owned), FIELD.map(str::to_owned)), field, 1.0)
+    }
+
+    /// (K(ω × B)) × B of eddy currents in a body with the magnetic tensor K [moment × rate/field²] (N. Ortiz Gómez and S. J. I. Walker 2015): it brakes the rotation across the field. ω is
+    /// relative to inertial space, so the field must turn slowly against the body.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for NaN or an infinity.
+    pub fn eddy(tensor: [[f64; 3]; 3], field: SourcePath) -> Result<Self, Error> {
+        if let Some(part) = tensor.as_flattened().iter().find(|part| !part.is_finite()) {
+            return Err(refused("conductivity", part, "finite"));
+        }
+        let induced = cross(["w1", "w2", "w3"].map(str::to_owned), FIELD.map(str::to_owned));
+        let moment = tensor.map(|row| {
+            let parts = row.iter().zip(&induced).filter(|(factor, _)| **factor != 0.0);
+            let parts: Vec<String> = parts.map(|(factor, part)| format!("({factor:?})*({part})")).collect();
+            if parts.is_empty() { "0".to_owned() } else { parts.join(" + ") }
+        });
+        Self::of_field(cross(moment, FIELD.map(str::to_owned)), field, 2.0)
+    }
+
+    /// Polynomials in the direction of a field, times a power of its size.
+    fn of_field(texts: [String; 3], field: SourcePath, power: f64) -> Result<Self, Error> {
+        let source = TorqueSource::new("b", field).falling(-power, 1.0);
+        Self::polynomial(texts.each_ref().map(String::as_str), vec![source])
     }
 
     /// The torque of a shape: three polynomials in the direction to one source, and what they leave out.
@@ -343,6 +389,14 @@ impl PolynomialTorque {
     pub(crate) fn turn(&self) -> Matrix3<f64> {
         rounded(&self.turn)
     }
+}
+
+/// The components of the unit vector along a field.
+const FIELD: [&str; 3] = ["b1", "b2", "b3"];
+
+/// The texts of a cross product.
+fn cross(one: [String; 3], other: [String; 3]) -> [String; 3] {
+    [(1, 2), (2, 0), (0, 1)].map(|(i, k)| format!("({})*({}) - ({})*({})", one[i], other[k], one[k], other[i]))
 }
 
 /// A number whose 0 has no sign, so that equal torques print and hash alike.

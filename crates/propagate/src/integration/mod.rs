@@ -12,6 +12,7 @@ pub(crate) mod columns;
 mod conic;
 pub(crate) mod dense;
 mod expansion;
+mod field;
 mod growth;
 pub(crate) mod integrated;
 pub(crate) mod integrator;

@@ -1,15 +1,17 @@
 //! The path of a disturbing body or of a source as a series: that of r̃ = √(3μ) ρ^(−5/2) r about a time, whose products with itself are the gravity gradient's torque;
 //! for the source of another torque the power of ρ is that torque's. It comes from an orbit
-//! ([`super::conic`]) or from a table ([`super::interpolation`]).
+//! ([`super::conic`]), from a table ([`super::interpolation`]) or from the field of a dipole ([`super::field`]).
 
 use std::sync::Arc;
 
 use super::conic::Conic;
+use super::field::FieldSeries;
 use super::interpolation::Table;
 use super::series::{GRAVITY, Scalars, Series};
 use crate::numerics::scaling::scaled;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
+use crate::orbit::field::DipoleField;
 use crate::orbit::table::TabulatedOrbit;
 use crate::simd::instruction_set::InstructionSet;
 use crate::torque::strength;
@@ -19,6 +21,7 @@ use crate::torque::strength;
 pub(super) enum PathSeries {
     Conic(Box<Conic>),
     Tabulated(Box<Table>),
+    Field(Box<FieldSeries>),
 }
 
 impl PathSeries {
@@ -47,6 +50,11 @@ impl PathSeries {
         Self::Tabulated(Box::new(Table::new(table, (epoch, exponent), factor)))
     }
 
+    /// The field of a dipole, whose series is a factor times a power of its size times the field, both in units of the field on the equator.
+    pub(super) fn of_field(field: &DipoleField, at: (f64, i32), factor: (f64, f64)) -> Self {
+        Self::Field(Box::new(FieldSeries::new(field, at, factor)))
+    }
+
     /// The series of the factor and the power of the distance alone.
     pub(super) fn factor<S: InstructionSet>(
         &self,
@@ -57,6 +65,7 @@ impl PathSeries {
         match self {
             Self::Conic(orbit) => orbit.factor(simd, time, order),
             Self::Tabulated(table) => table.expanded((time, backward), order).1,
+            Self::Field(field) => field.factor(simd, time, order),
         }
     }
 
@@ -72,13 +81,14 @@ impl PathSeries {
         match self {
             Self::Conic(orbit) => orbit.series(simd, time, order, out),
             Self::Tabulated(table) => table.series((time, backward), order, out),
+            Self::Field(field) => field.series(simd, time, order, out),
         }
     }
 
     /// The next time after (or before) a time at which the series ends.
     pub(super) fn next_knot(&self, time: f64, forward: bool) -> Option<(f64, f64)> {
         match self {
-            Self::Conic(_) => None,
+            Self::Conic(_) | Self::Field(_) => None,
             Self::Tabulated(table) => table.next_knot(time, forward),
         }
     }
@@ -89,13 +99,14 @@ impl PathSeries {
         match self {
             Self::Conic(orbit) => orbit.passed(time),
             Self::Tabulated(table) => table.passed(time),
+            Self::Field(field) => field.passed(time),
         }
     }
 
     /// With the earlier or the later of the neighbouring polynomials, where it has a table.
     pub(super) fn neighbouring(&self, earlier: bool) -> Self {
         match self {
-            Self::Conic(orbit) => Self::Conic(orbit.clone()),
+            Self::Conic(_) | Self::Field(_) => self.clone(),
             Self::Tabulated(table) => Self::Tabulated(Box::new(table.neighbouring(earlier))),
         }
     }

@@ -31,13 +31,21 @@ pub(super) fn rates_of_sources(scene: &Scene, span: (f64, f64)) -> Result<[f64; 
         Torque::Polynomial(torque) => torque.sources(),
         _ => &[],
     });
+    let of_path = |orbit: &Orbit| {
+        orbit.within_reach(scene.state().epoch)?;
+        let secular = orbit.rates().iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        Ok::<_, Error>([rates_of_motion(orbit), orbit.mean_motion(), secular])
+    };
     for source in sources {
         match source.path() {
             SourcePath::Orbit(orbit) => {
-                orbit.within_reach(scene.state().epoch)?;
-                let secular = orbit.rates().iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
-                let own = [rates_of_motion(orbit), orbit.mean_motion(), secular];
+                let own = of_path(orbit)?;
                 rates = std::array::from_fn(|k| rates[k].max(own[k]));
+            }
+            // Its direction has the double angle of the orbit, and the angle of the moment beside it.
+            SourcePath::Field(field) => {
+                let (own, turn) = (of_path(field.orbit())?, field.rotation_rate().abs());
+                rates = std::array::from_fn(|k| rates[k].max(2.0 * own[k] + turn));
             }
             SourcePath::Tabulated(table) => covered(table, span)?,
             SourcePath::Direction(_) => {}

@@ -12,6 +12,7 @@ use super::series::{ROWS, Scalars, Series, ZERO, product};
 use crate::input::scene::Scene;
 use crate::input::torque::{PolynomialTorque, SourcePath, Torque, TorqueSource};
 use crate::numerics::scaling::scaled;
+use crate::orbit::elements::Orbit;
 use crate::simd::instruction_set::InstructionSet;
 
 /// The torques of a scene in the unit of the integration, over the moments.
@@ -216,6 +217,7 @@ impl SourceSeries {
         let path = |strength: f64, power: f64| match source.path() {
             SourcePath::Orbit(orbit) => Ok(PathSeries::of_orbit(orbit, at, (strength, power))),
             SourcePath::Tabulated(table) => Ok(PathSeries::of_table(table, at, (strength, power))),
+            SourcePath::Field(field) => Ok(PathSeries::of_field(field, at, (strength, power))),
             SourcePath::Direction(vector) => {
                 let vector = Vector3::from(*vector);
                 Err((vector / vector.amax()).normalize().into())
@@ -225,6 +227,7 @@ impl SourceSeries {
         let size = match source.path() {
             SourcePath::Orbit(orbit) => orbit.asked_semi_major_axis().unwrap_or(1.0),
             SourcePath::Tabulated(table) => Table::length(table),
+            SourcePath::Field(field) => field.equatorial(),
             SourcePath::Direction(_) => 1.0,
         };
         let fall = (power != 0.0).then(|| path((reference / size).powf(power), -power).ok()).flatten();
@@ -266,7 +269,10 @@ impl Recipe {
             }
         }
         let powers = torque.sources().iter().map(|source| source.distance_power().0.abs()).sum::<f64>();
-        recipe.roundings = 0.5 * (1.0 + f64::from(degree) + powers);
+        let of_field = torque.sources().iter().any(|source| matches!(source.path(), SourcePath::Field(_)));
+        // A direction of a field is a polynomial of degree 3 in those of its orbit and its moment.
+        let operations = if of_field { 4.0 } else { 1.0 };
+        recipe.roundings = 0.5 * (1.0 + operations * (f64::from(degree) + powers));
         let falls = torque.sources().iter().map(|source| falls(source, scene));
         let falls = falls.fold([1.0; 2], |product, falls| [product[0] * falls[0], product[1] * falls[1]]);
         recipe.size = falls.map(|fall| recipe.back.norm() * size * fall);
@@ -380,21 +386,30 @@ pub(super) fn falls(source: &TorqueSource, scene: &Scene) -> [f64; 2] {
     let (power, reference) = source.distance_power();
     let distances = match source.path() {
         SourcePath::Orbit(orbit) => {
-            let (e, size) = (orbit.eccentricity(), orbit.asked_semi_major_axis().unwrap_or(1.0));
-            let farthest = if orbit.is_hyperbola() {
-                let (start, stop) = scene.asked_span().unwrap_or_default();
-                orbit.hyperbolic_distance(start).max(orbit.hyperbolic_distance(stop))
-            } else {
-                1.0 + e
-            };
-            [(1.0 - e).abs(), farthest].map(|distance| size * distance)
+            let size = orbit.asked_semi_major_axis().unwrap_or(1.0);
+            conic_distances(orbit, scene).map(|distance| size * distance)
         }
         SourcePath::Tabulated(table) => {
             let distances = table.positions().iter().map(|[x, y, z]| x.hypot(*y).hypot(*z));
             distances.fold([f64::INFINITY, 0.0], |[least, most], r| [r.min(least), r.max(most)])
         }
+        // Between the equator at the apocentre and the pole at the pericentre.
+        SourcePath::Field(field) => {
+            let [near, far] = conic_distances(field.orbit(), scene);
+            [field.strength(far), 2.0 * field.strength(near)]
+        }
         SourcePath::Direction(_) => return [1.0; 2],
     };
     let [one, other] = distances.map(|distance| (reference / distance).powf(power));
     [one.max(other), one.min(other)]
+}
+
+/// The smallest and the largest distance on an orbit over the span of a scene, in semi-major axes.
+fn conic_distances(orbit: &Orbit, scene: &Scene) -> [f64; 2] {
+    let e = orbit.eccentricity();
+    if !orbit.is_hyperbola() {
+        return [1.0 - e, 1.0 + e];
+    }
+    let (start, stop) = scene.asked_span().unwrap_or_default();
+    [e - 1.0, orbit.hyperbolic_distance(start).max(orbit.hyperbolic_distance(stop))]
 }

@@ -9,6 +9,7 @@ pub(crate) mod conic;
 pub(crate) mod derivatives;
 pub(crate) mod disturbing_body;
 pub(crate) mod elements;
+pub(crate) mod field;
 mod from_state;
 pub(crate) mod hansen;
 pub(crate) mod hyperbola;

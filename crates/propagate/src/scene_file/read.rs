@@ -1,10 +1,12 @@
 //! From the tables of a file to a scene.
 
+use std::sync::Arc;
+
 use nalgebra::Vector3;
 
 use super::problem::Refusal;
 use super::tables::{
-    BodyTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable, SourceTable, StateTable, TorqueTable,
+    BodyTable, FieldTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable, SourceTable, StateTable, TorqueTable,
 };
 use crate::input::body::Body;
 use crate::input::scene::Scene;
@@ -13,6 +15,7 @@ use crate::input::torque::{SourcePath, Torque, TorqueSource};
 use crate::observed::periods::ObservedPeriods;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
+use crate::orbit::field::DipoleField;
 use crate::orbit::table::TabulatedOrbit;
 use crate::orbital::{EulerSequence, OrbitalFrame};
 
@@ -110,16 +113,33 @@ impl TorqueTable {
     }
 }
 
+impl FieldTable {
+    fn field(self, orbit: Orbit) -> Result<DipoleField, Refusal> {
+        let field = DipoleField::new(orbit, self.radius, self.equatorial)?;
+        let field = field.axis(self.axis.unwrap_or([0.0, 0.0, 1.0]))?;
+        Ok(field.rotating(self.rotation_rate.unwrap_or(0.0))?)
+    }
+}
+
 impl SourceTable {
     fn source(self) -> Result<TorqueSource, Refusal> {
-        let path = match (self.direction, self.orbit) {
-            (Some(direction), None) => SourcePath::Direction(direction),
-            (None, Some(table)) => match table.body().map_err(|refusal| refusal.under("torque.source"))? {
+        let path = match (self.direction, self.orbit, self.field) {
+            (Some(direction), None, None) => SourcePath::Direction(direction),
+            (None, Some(table), Some(field)) => {
+                match table.body().map_err(|refusal| refusal.under("torque.source"))? {
+                    DisturbingBody::Orbit(orbit) => SourcePath::Field(Arc::new(field.field(orbit)?)),
+                    DisturbingBody::Tabulated(_) => {
+                        let bound = "with an orbit by its elements; a table has the vectors of the field itself";
+                        return Err(Refusal::new("torque.source.field", &format!("must be {bound}"), bound));
+                    }
+                }
+            }
+            (None, Some(table), None) => match table.body().map_err(|refusal| refusal.under("torque.source"))? {
                 DisturbingBody::Orbit(orbit) => SourcePath::Orbit(orbit),
                 DisturbingBody::Tabulated(table) => SourcePath::Tabulated(table),
             },
             _ => {
-                let bound = "a direction or an orbit";
+                let bound = "a direction, or an orbit with or without a field";
                 return Err(Refusal::new("torque.source", &format!("must have {bound}"), bound));
             }
         };

@@ -77,6 +77,18 @@ pub(super) struct SourceTable {
     pub(super) direction: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) orbit: Option<OrbitTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) field: Option<FieldTable>,
+}
+
+/// `[torque.source.field]`: of a dipole, at a body on the orbit of the source.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FieldTable {
+    pub(super) radius: f64,
+    pub(super) equatorial: f64,
+    pub(super) axis: Option<[f64; 3]>,
+    pub(super) rotation_rate: Option<f64>,
 }
 
 /// `[body]`: one of moments, named and inertia.

@@ -1,12 +1,13 @@
 //! From a scene to the tables of a file.
 
-use super::tables::{BodyTable, OrbitTable, OrbitTables, SceneTable, SourceTable, StateTable, TorqueTable};
+use super::tables::{BodyTable, FieldTable, OrbitTable, OrbitTables, SceneTable, SourceTable, StateTable, TorqueTable};
 use crate::input::body::Body;
 use crate::input::options::{Averaging, Level};
 use crate::input::scene::Scene;
 use crate::input::torque::{SourcePath, Torque, TorqueSource};
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
+use crate::orbit::field::DipoleField;
 use crate::orbit::table::TabulatedOrbit;
 
 impl SceneTable {
@@ -61,13 +62,25 @@ impl TorqueTable {
     }
 }
 
+impl FieldTable {
+    fn of(field: &DipoleField) -> Self {
+        Self {
+            radius: field.radius(),
+            equatorial: field.equatorial(),
+            axis: Some(field.moment_axis()),
+            rotation_rate: Some(field.rotation_rate()),
+        }
+    }
+}
+
 impl SourceTable {
     fn of(source: &TorqueSource) -> Self {
         let (power, distance) = source.distance_power();
-        let (direction, orbit) = match source.path() {
-            SourcePath::Direction(direction) => (Some(*direction), None),
-            SourcePath::Orbit(orbit) => (None, Some(OrbitTable::of_orbit(orbit))),
-            SourcePath::Tabulated(table) => (None, Some(OrbitTable::of_table(table))),
+        let (direction, orbit, field) = match source.path() {
+            SourcePath::Direction(direction) => (Some(*direction), None, None),
+            SourcePath::Orbit(orbit) => (None, Some(OrbitTable::of_orbit(orbit)), None),
+            SourcePath::Tabulated(table) => (None, Some(OrbitTable::of_table(table)), None),
+            SourcePath::Field(field) => (None, Some(OrbitTable::of_orbit(field.orbit())), Some(FieldTable::of(field))),
         };
         let falls = power != 0.0;
         Self {
@@ -76,6 +89,7 @@ impl SourceTable {
             reference_distance: falls.then_some(distance),
             direction,
             orbit,
+            field,
         }
     }
 }
