@@ -22,6 +22,8 @@ mod ensemble;
 mod error;
 mod evolution;
 mod expression;
+mod field;
+mod field_torque;
 mod foreign;
 mod form;
 mod kernel;
@@ -75,6 +77,8 @@ mod _core {
     };
     #[pymodule_export]
     use super::evolution::{Drift, Evolution, EvolutionEnd, EvolutionPlan, EvolvedStates};
+    #[pymodule_export]
+    use super::field::Field;
     #[pymodule_export]
     use super::kernel::{_clock_code, _frame_code, _write_motion, _write_samples};
     #[pymodule_export]

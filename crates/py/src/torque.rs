@@ -10,6 +10,7 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 use crate::array::{fixed, is_matrix, matrix, number};
 use crate::dissipation::Dissipation;
 use crate::error::{self, InternalError};
+use crate::field::{Field, FieldPath};
 use crate::material::value;
 use crate::orbit::Orbit;
 use crate::scene::arguments::kind;
@@ -134,7 +135,7 @@ impl Torque {
     /// texts : sequence of three str
     ///     Polynomials of degree 8 or less, of at most eight variables each: ``name1``, ``name2``, ``name3`` are the body components of the unit vector to the source
     ///     ``name``, and ``w1``, ``w2``, ``w3`` those of the angular velocity.
-    /// sources : dict of str to Orbit, TabulatedOrbit or array_like of shape (3,), optional
+    /// sources : dict of str to Orbit, TabulatedOrbit, Field or array_like of shape (3,), optional
     ///     The sources by their names; an array is a fixed inertial direction. The vector of an orbit goes from the body to the source. With the elements of the body
     ///     about the source (a satellite's own elements) it is the opposite one: change the sign of terms of odd degree in it.
     /// distance_powers : dict of str to float, optional
@@ -281,6 +282,9 @@ impl Torque {
                 SourcePath::Tabulated(table) => {
                     sources.set_item(name, Bound::new(py, TabulatedOrbit(table.clone()))?)?
                 }
+                SourcePath::Field(field) => {
+                    sources.set_item(name, Bound::new(py, Field(FieldPath::Dipole(field.clone())))?)?
+                }
                 SourcePath::Direction(vector) => sources.set_item(name, vector.to_vec())?,
                 _ => {
                     return Err(InternalError::new_err("a fault of this package, please report it: an unknown source"));
@@ -306,6 +310,9 @@ pub(crate) fn source_path(value: &Bound<'_, PyAny>) -> PyResult<SourcePath> {
     }
     if let Ok(table) = value.cast::<TabulatedOrbit>() {
         return Ok(SourcePath::Tabulated(table.get().0.clone()));
+    }
+    if let Ok(field) = value.cast::<Field>() {
+        return Ok(field.get().0.source());
     }
     Ok(SourcePath::Direction(fixed("sources", value)?))
 }

@@ -218,7 +218,7 @@ impl Torque {
         Ok(Self::Polynomial(Arc::new(PolynomialTorque { texts, sources, terms, turn, truncation: 0.0 })))
     }
 
-    /// m × B of a magnetic moment [unit of the torque over that of the field] in a field: [`SourcePath::Field`], or a table of its vectors.
+    /// m × B of a magnetic moment [unit of the torque over that of the field] in a field: [`SourcePath::Field`], or a table of its vectors. A direction is a uniform field of the size 1.
     ///
     /// # Errors
     /// - [`Error::Torque`] for NaN or an infinity.
@@ -257,7 +257,9 @@ impl Torque {
 
     /// Polynomials in the direction of a field, times a power of its size.
     fn of_field(texts: [String; 3], field: SourcePath, power: f64) -> Result<Self, Error> {
-        let source = TorqueSource::new("b", field).falling(-power, 1.0);
+        // A uniform field has its size in the texts.
+        let power = if matches!(field, SourcePath::Direction(_)) { 0.0 } else { -power };
+        let source = TorqueSource::new("b", field).falling(power, 1.0);
         Self::polynomial(texts.each_ref().map(String::as_str), vec![source])
     }
 

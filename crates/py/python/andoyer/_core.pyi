@@ -214,6 +214,24 @@ class TabulatedOrbit:
     def __deepcopy__(self, _memo: Any) -> TabulatedOrbit: ...
 
 @final
+class Field:
+    """A magnetic field along an orbit, for `Torque.dipole` and `Torque.eddy`. It is made by one of the class methods below."""
+
+    @classmethod
+    def dipole(
+        cls, *, radius: float, equatorial: float, orbit: Orbit, axis: ArrayLike = (0, 0, 1), rotation_rate: float = 0.0
+    ) -> Field:
+        """The field of a dipole in the centre of a planet, B_e (R/r)³ (3 (m·r) r − m) with the unit vectors m of its moment and r of the position."""
+    @classmethod
+    def table(cls, times: ArrayLike | Any, vectors: ArrayLike) -> Field:
+        """A table of the field at the body, of any model."""
+    def at(self, times: ArrayLike) -> _Array:
+        """The field at times, in inertial components."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> Field: ...
+    def __deepcopy__(self, _memo: Any) -> Field: ...
+
 class Torque:
     """A torque beside the gravity gradient, in body axes. It is made by one of the class methods below. A scene with torques is integrated: it needs a span."""
 
@@ -227,6 +245,12 @@ class Torque:
     def rotor(cls, momentum: ArrayLike) -> Torque:
         """Rotors with a constant angular momentum relative to the body: a gyrostat. The torque is −ω × h."""
     @classmethod
+    def dipole(cls, moment: ArrayLike | Sequence[str], field: Field | ArrayLike) -> Torque:
+        """m × B of a magnetic moment fixed in the body, or commanded by the rates and the field."""
+    @classmethod
+    def eddy(cls, conductivity: ArrayLike, field: Field | ArrayLike) -> Torque:
+        """(K(ω × B)) × B of eddy currents in a conducting body, with the magnetic tensor K (N. Ortiz Gómez and S. J. I. Walker 2015): it brakes the rotation across the field."""
+    @classmethod
     def dissipation(cls, loss: Dissipation | Callable[[float], float]) -> Torque:
         """Inner friction, which takes energy at constant angular momentum: a term of `Scene.evolve` and `Scene.drift` alone. A scene with it is not solved."""
     @classmethod
@@ -234,7 +258,7 @@ class Torque:
         cls,
         texts: Sequence[str],
         *,
-        sources: dict[str, Orbit | TabulatedOrbit | ArrayLike] | None = None,
+        sources: dict[str, Orbit | TabulatedOrbit | Field | ArrayLike] | None = None,
         distance_powers: dict[str, float] | None = None,
         reference_distances: dict[str, float] | None = None,
     ) -> Torque:
