@@ -121,6 +121,7 @@ pub mod torques {
     #[cfg(feature = "torques")]
     pub use crate::evolution::sphere::SphereRule;
     pub use crate::input::energy_loss::{EnergyLoss, LossState};
+    pub use crate::input::gravity::Gravity;
     pub use crate::input::torque::{PolynomialTorque, SourcePath, Torque, TorqueSource};
     pub use crate::orbit::field::DipoleField;
 }

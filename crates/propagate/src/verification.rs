@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::input::options::Method;
-use crate::input::principal_axes::{Square, UNIT};
+use crate::input::principal_axes::NEXT_AXES;
 use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::motion::plan::{LONGEST_VERIFICATION, bound_in_words};
@@ -244,9 +244,6 @@ impl Motion {
         })
     }
 }
-
-/// The axes (2, 3, 1) as columns.
-const NEXT_AXES: Square = [UNIT[2], UNIT[0], UNIT[1]];
 
 /// The rotation from components about the axes (2, 3, 1) to components about (1, 2, 3): a third of a turn about the diagonal.
 fn next_axes() -> UnitQuaternion<f64> {

@@ -75,7 +75,7 @@ impl AveragedTorques {
         let (moments, sort) = sorted_axes(scene.body().moments());
         let mut builder = RowBuilder::new(family, &moments);
         let (mut sources, mut parts, mut losses) = (Vec::new(), Vec::new(), Vec::new());
-        for torque in scene.asked_torques() {
+        for torque in scene.acting_torques().iter() {
             if let Torque::Dissipation(loss) = torque {
                 loss.check(moments.into())?;
                 losses.push(loss.clone());

@@ -3,11 +3,14 @@
 //! Moments are given in any order about body axes 1, 2, 3. A ≤ B ≤ C of the theory are the sorted moments. Differences of moments are computed before any
 //! division, so that α, αβ and 1 − β keep their relative accuracy for a nearly spherical, oblate or prolate body.
 
+use std::sync::Arc;
+
 use andoyer_double::DoubleDouble;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::catalogue;
-use super::principal_axes::{Square, UNIT, along, principal_axes, rounded};
+use super::gravity::Gravity;
+use super::principal_axes::{NEXT_AXES, Square, UNIT, along, principal_axes, rounded};
 use crate::error::Error;
 
 /// Tolerance of the triangle inequality, which accepts a flat body given in rounded decimals.
@@ -27,12 +30,15 @@ pub struct Body {
     tensor: Option<Box<Tensor>>,
     /// Whether the body was given by a tensor. A tensor about the principal axes is kept as moments.
     by_tensor: bool,
+    /// The field of degree 3 and 4.
+    gravity: Option<Arc<Gravity>>,
 }
 
 /// A body of a diagonal tensor is equal to that of its moments.
 impl PartialEq for Body {
     fn eq(&self, other: &Self) -> bool {
-        (self.moments, &self.name, &self.tensor) == (other.moments, &other.name, &other.tensor)
+        (self.moments, &self.name, &self.tensor, &self.gravity)
+            == (other.moments, &other.name, &other.tensor, &other.gravity)
     }
 }
 
@@ -66,7 +72,7 @@ impl Body {
                 return Err(Error::Moment { axis, value });
             }
         }
-        let body = Self { moments, lows: [0.0; 3], name: None, tensor: None, by_tensor: false };
+        let body = Self { moments, lows: [0.0; 3], name: None, tensor: None, by_tensor: false, gravity: None };
         let [a, b, c] = body.sorted();
         // Each quotient is computed by itself, because the sum of two large moments may overflow.
         let sum = a / c + b / c;
@@ -170,6 +176,25 @@ impl Body {
         Self::new([b + c, a + c, a + b].map(|sum| mass * sum / divisor))
     }
 
+    /// The body with a gravity field of degree 3 and 4 about its axes. Scenes with it and with disturbing bodies are integrated.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for a field without an inertia factor or a C20 that gives it.
+    pub fn with_gravity(self, gravity: Gravity) -> Result<Self, Error> {
+        let gravity = gravity.of_body(&self.inertia(), self.sorted()[2])?;
+        Ok(Self { gravity: Some(Arc::new(gravity)), ..self })
+    }
+
+    /// The gravity field of degree 3 and 4.
+    pub fn gravity(&self) -> Option<&Gravity> {
+        self.gravity.as_deref()
+    }
+
+    /// The coefficients of degree 2 of the gravity field that differ from those of the inertia tensor by more than 0.1 %: name, as given, of the tensor.
+    pub fn gravity_differences(&self) -> Vec<(&'static str, f64, f64)> {
+        self.gravity().map_or_else(Vec::new, |gravity| gravity.different(&self.inertia()))
+    }
+
     /// Whether the body was given by an inertia tensor.
     pub fn has_tensor(&self) -> bool {
         self.by_tensor
@@ -226,15 +251,20 @@ impl Body {
     pub(crate) fn about_next_axes(&self) -> Result<Self, Error> {
         let next = |axis: usize| (axis + 1) % 3;
         let tensor = self.inertia();
-        if self.tensor.is_some() {
-            return Self::from_inertia(std::array::from_fn(|i| std::array::from_fn(|j| tensor[next(i)][next(j)])));
-        }
-        Self::new([0, 1, 2].map(|axis| self.moments[next(axis)]))
+        let body = if self.tensor.is_some() {
+            Self::from_inertia(std::array::from_fn(|i| std::array::from_fn(|j| tensor[next(i)][next(j)])))?
+        } else {
+            Self::new([0, 1, 2].map(|axis| self.moments[next(axis)]))?
+        };
+        let gravity = self.gravity.as_ref().map(|gravity| Arc::new(gravity.turned(&NEXT_AXES)));
+        Ok(Self { gravity, ..body })
     }
 
     /// The same body about its principal axes.
     pub(crate) fn about_principal_axes(&self) -> Self {
-        Self { tensor: None, ..self.clone() }
+        let gravity = self.gravity.as_ref().filter(|_| self.tensor.is_some());
+        let turned = gravity.map(|gravity| Arc::new(gravity.turned(&self.precise_axes())));
+        Self { tensor: None, gravity: turned.or_else(|| self.gravity.clone()), ..self.clone() }
     }
 
     /// The body about its principal axes with a slightly different tensor, which is not validated; from the changes of I11, I22, I33, I12, I13, I23.

@@ -3,6 +3,7 @@
 pub(crate) mod body;
 mod catalogue;
 pub(crate) mod energy_loss;
+pub(crate) mod gravity;
 pub(crate) mod options;
 pub(crate) mod principal_axes;
 pub(crate) mod scene;

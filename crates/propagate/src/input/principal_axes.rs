@@ -63,6 +63,9 @@ fn turn_columns(matrix: &mut Square, (i, j): (usize, usize), [cosine, sine]: [Do
     }
 }
 
+/// The axes (2, 3, 1) as columns.
+pub(crate) const NEXT_AXES: Square = [UNIT[2], UNIT[0], UNIT[1]];
+
 pub(crate) fn transposed(matrix: &Square) -> Square {
     std::array::from_fn(|i| std::array::from_fn(|j| matrix[j][i]))
 }

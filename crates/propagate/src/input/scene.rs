@@ -1,5 +1,7 @@
 //! A scene: a body, its state, and the requested accuracy. `solve` turns it into a motion.
 
+use std::borrow::Cow;
+
 use andoyer_double::DoubleDouble;
 use nalgebra::UnitQuaternion;
 
@@ -232,6 +234,24 @@ impl Scene {
         orbits.filter(|orbits| !orbits.is_empty())
     }
 
+    /// The torques of degree 3 and 4 by the body's gravity field.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for a gravity field and an orbit without a semi-major axis.
+    fn gravity_torques(&self) -> Result<Vec<Torque>, Error> {
+        let Some(gravity) = self.body.gravity() else { return Ok(Vec::new()) };
+        let torques = self.disturbing.iter().map(|body| gravity.torques(body)).collect::<Result<Vec<_>, _>>()?;
+        Ok(torques.into_iter().flatten().collect())
+    }
+
+    /// All torques beside the gravity gradient of a validated scene: those that were asked for, and those of its gravity field.
+    pub(crate) fn acting_torques(&self) -> Cow<'_, [Torque]> {
+        match self.gravity_torques() {
+            Ok(own) if !own.is_empty() => Cow::Owned(self.torques.iter().cloned().chain(own).collect()),
+            _ => Cow::Borrowed(&self.torques),
+        }
+    }
+
     /// The bodies whose gravity gradients act.
     pub fn asked_disturbing(&self) -> &[DisturbingBody] {
         &self.disturbing
@@ -309,6 +329,7 @@ impl Scene {
         // A body at rest has the unit of the user.
         let unit = if rate > 0.0 { exponent(rate) } else { 0 };
         self.disturbing.iter().try_for_each(|body| body.validate(unit))?;
+        self.gravity_torques()?;
         self.torques.iter().try_for_each(Torque::validate)
     }
 }

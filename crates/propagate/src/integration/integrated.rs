@@ -221,7 +221,7 @@ impl Problem {
             secular: scaled(secular, -exponent),
             ends: [end(start), end(stop)],
             reach: [start - epoch, stop - epoch],
-            torques: scene.asked_torques().len(),
+            torques: scene.acting_torques().len(),
             of_interpolation,
         })
     }

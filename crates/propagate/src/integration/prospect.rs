@@ -29,7 +29,7 @@ pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
 /// Whether an integration takes some milliseconds at most, even if passages of the pericentre spin the body up.
 pub(crate) fn is_brief(scene: &Scene) -> bool {
     // A constant torque may spin it up to any rate.
-    scene.asked_torques().is_empty()
+    scene.acting_torques().is_empty()
         && Problem::new(scene, "").is_ok_and(|problem| {
             let longest = problem.ends[0].0.abs().max(problem.ends[1].0.abs());
             problem.most_steps() + SPUN_UP * problem.fastest * longest < BRIEF
@@ -38,9 +38,9 @@ pub(crate) fn is_brief(scene: &Scene) -> bool {
 
 /// The cost of a verification of a motion under torques over the span of its scene; `None` without a span.
 pub(crate) fn verification_cost(scene: &Scene) -> Option<VerificationCost> {
-    let polynomials = scene.asked_torques().iter().filter(|torque| matches!(torque, Torque::Polynomial(_))).count();
+    let polynomials = scene.acting_torques().iter().filter(|torque| matches!(torque, Torque::Polynomial(_))).count();
     let bodies = scene.asked_disturbing().len() + polynomials;
-    if bodies == 0 && scene.asked_torques().is_empty() {
+    if bodies == 0 && scene.acting_torques().is_empty() {
         return VerificationCost::over_span(scene);
     }
     let ((start, stop), epoch) = (scene.asked_span()?, scene.state().epoch);

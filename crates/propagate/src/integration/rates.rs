@@ -27,7 +27,8 @@ pub(super) fn covered(table: &TabulatedOrbit, (start, stop): (f64, f64)) -> Resu
 /// Those of a source without a position over the span, and [`Error::Torque`] for powers of its distance that no double holds.
 pub(super) fn rates_of_sources(scene: &Scene, span: (f64, f64)) -> Result<[f64; 3], Error> {
     let mut rates = [0.0_f64; 3];
-    let sources = scene.asked_torques().iter().flat_map(|torque| match torque {
+    let torques = scene.acting_torques();
+    let sources = torques.iter().flat_map(|torque| match torque {
         Torque::Polynomial(torque) => torque.sources(),
         _ => &[],
     });

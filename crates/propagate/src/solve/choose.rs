@@ -191,6 +191,9 @@ fn by_theory(scene: Scene, tables: &SeriesTables) -> Result<Motion, Error> {
 fn beyond_theory(scene: &Scene) -> Option<String> {
     match scene.asked_disturbing() {
         _ if !scene.asked_torques().is_empty() => Some("a torque beside the gravity gradient is integrated".to_owned()),
+        [_, ..] if scene.body().gravity().is_some() => {
+            Some("a gravity field of degree 3 or 4 is integrated".to_owned())
+        }
         _ if scene.body().is_sphere() => None,
         bodies if bodies.iter().any(|body| matches!(body, DisturbingBody::Tabulated(_))) => {
             Some("a table of positions is integrated".to_owned())

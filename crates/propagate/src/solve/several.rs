@@ -40,7 +40,7 @@ fn wobbles(polhode: &&Polhode) -> bool {
 /// Whether a scene has neither a torque nor a choice of method.
 fn is_free(scene: &Scene) -> bool {
     scene.asked_disturbing().is_empty()
-        && scene.asked_torques().is_empty()
+        && scene.acting_torques().is_empty()
         && scene.asked_method() == Method::Auto
         && scene.body().turn().is_none()
 }

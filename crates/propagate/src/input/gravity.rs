@@ -1,0 +1,235 @@
+//! The gravity field of a rotating body of degree 3 and 4, and the torque that a disturbing body exerts on it.
+//!
+//! ```text
+//! U = (G M/r) Σ (R/r)^n Y_n(u),   Y_n = Σ (C_nm cos mλ + S_nm sin mλ) P_nm(sin φ)
+//! T = −(G m′/r³) M R² (R/r)^(n−2) u × ∇Y_n
+//! ```
+//!
+//! with the unit vector u to the disturbing body m′ in body axes and unnormalized coefficients. Of degree 2 it is the gravity gradient, which comes from the moments.
+
+use andoyer_series::Polynomial;
+
+use super::principal_axes::{Square, UNIT, product};
+use super::torque::{SourcePath, Torque, TorqueSource};
+use crate::error::Error;
+use crate::orbit::disturbing_body::DisturbingBody;
+
+/// The harmonics of degree 3 and 4: their names, and u-polynomials on the unit sphere.
+const HARMONICS: [(&str, &str); 16] = [
+    ("C30", "2.5*z^3 - 1.5*z"),
+    ("C31", "7.5*x*z^2 - 1.5*x"),
+    ("S31", "7.5*y*z^2 - 1.5*y"),
+    ("C32", "15*z*x^2 - 15*z*y^2"),
+    ("S32", "30*x*y*z"),
+    ("C33", "15*x^3 - 45*x*y^2"),
+    ("S33", "45*x^2*y - 15*y^3"),
+    ("C40", "4.375*z^4 - 3.75*z^2"),
+    ("C41", "17.5*x*z^3 - 7.5*x*z"),
+    ("S41", "17.5*y*z^3 - 7.5*y*z"),
+    ("C42", "52.5*z^2*x^2 - 7.5*x^2 - 52.5*z^2*y^2 + 7.5*y^2"),
+    ("S42", "105*x*y*z^2 - 15*x*y"),
+    ("C43", "105*z*x^3 - 315*z*x*y^2"),
+    ("S43", "315*z*x^2*y - 105*z*y^3"),
+    ("C44", "105*x^4 - 630*x^2*y^2 + 105*y^4"),
+    ("S44", "420*x^3*y - 420*x*y^3"),
+];
+
+/// Those of degree 2, which are compared with the inertia tensor.
+const OF_INERTIA: [&str; 5] = ["C20", "C21", "S21", "C22", "S22"];
+
+/// Coefficients of degree 2 that differ from those of the inertia tensor by more than this part of the largest are named.
+const DIFFERENT: f64 = 1e-3;
+
+/// The gravity field of a body of degree 3 and 4.
+///
+/// ```
+/// use andoyer_propagate::torques::Gravity;
+/// use andoyer_propagate::{Body, Method, Orbit, Scene, State};
+/// // C/(M R²) = 0.393 for the Moon; radius and semi-major axis in km.
+/// let field = Gravity::new(&[("C30", -8.5e-6), ("C31", 3.05e-5), ("S31", 4.1e-6)], 1738.0)?.inertia_factor(0.393)?;
+/// let body = Body::new([0.999_37, 0.999_6, 1.0])?.with_gravity(field)?;
+/// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 2.66e-6])?;
+/// let scene = Scene::new(body, state).orbit(Orbit::circular(2.66e-6)?.semi_major_axis(384_400.0)?);
+/// assert_eq!(scene.span(0.0, 1e7).tolerance(1e-9).solve()?.plan().method(), Method::Integrated);
+/// # Ok::<(), andoyer_propagate::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gravity {
+    coefficients: Vec<(String, f64)>,
+    radius: f64,
+    inertia_factor: Option<f64>,
+    /// M R² in the unit of the moments, once a body has it.
+    mass_radius_squared: f64,
+    /// The rotation from components about the axes of the scene to those of the coefficients.
+    turn: Square,
+}
+
+impl Gravity {
+    /// Coefficients by their names, "C30" to "S44", and the reference radius in the unit of length of the orbits. Coefficients of degree 2 are compared with the moments.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for an unknown name or one that stands twice, a coefficient that is not finite, a radius that is not positive and finite.
+    pub fn new(coefficients: &[(&str, f64)], radius: f64) -> Result<Self, Error> {
+        let known = |name: &str| OF_INERTIA.contains(&name) || HARMONICS.iter().any(|(own, _)| *own == name);
+        for (index, (name, value)) in coefficients.iter().enumerate() {
+            if !known(name) {
+                let bound = "C20, C21, S21, C22, S22, or C and S of degree 3 and 4, unnormalized";
+                return Err(refused("coefficients", name, bound));
+            }
+            if !value.is_finite() {
+                return Err(refused("coefficients", format!("{name}: {value}"), "finite"));
+            }
+            if coefficients[..index].iter().any(|(other, _)| other == name) {
+                return Err(refused("coefficients", format!("{name} twice"), "different names"));
+            }
+        }
+        if !(radius > 0.0 && radius.is_finite()) {
+            return Err(refused("radius", radius, "positive and finite"));
+        }
+        let coefficients = coefficients.iter().map(|(name, value)| ((*name).to_owned(), value + 0.0)).collect();
+        Ok(Self { coefficients, radius, inertia_factor: None, mass_radius_squared: f64::NAN, turn: UNIT })
+    }
+
+    /// Sets C/(M R²) with the largest moment C. Without it C20 gives it.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for a factor that is not positive and finite.
+    pub fn inertia_factor(self, factor: f64) -> Result<Self, Error> {
+        if factor > 0.0 && factor.is_finite() {
+            return Ok(Self { inertia_factor: Some(factor), ..self });
+        }
+        Err(refused("inertia_factor", factor, "positive and finite"))
+    }
+
+    /// The coefficients of degree 4 of a homogeneous ellipsoid with semi-axes along body axes 1, 2, 3, with those of degree 2; the odd ones are 0.
+    ///
+    /// With C20 and C22: C40 = 15/7 (C20² + 2C22²), C42 = 5/7 C20 C22, C44 = 5/28 C22² (G. Balmino, Celest. Mech. Dyn. Astron. 60 (1994) 331).
+    ///
+    /// # Errors
+    /// - [`Error::Positive`] for a semi-axis, [`Error::Torque`] for a radius, that is not positive and finite.
+    pub fn ellipsoid(semi_axes: [f64; 3], radius: f64) -> Result<Self, Error> {
+        for (value, argument) in semi_axes.into_iter().zip(["a", "b", "c"]) {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::Positive { argument, value });
+            }
+        }
+        let [a, b, c] = semi_axes.map(|axis| axis / radius);
+        let (zonal, sectoral) = ((2.0 * c * c - a * a - b * b) / 10.0, (a * a - b * b) / 20.0);
+        let coefficients = [
+            ("C20", zonal),
+            ("C22", sectoral),
+            ("C40", 15.0 / 7.0 * (zonal * zonal + 2.0 * sectoral * sectoral)),
+            ("C42", 5.0 / 7.0 * zonal * sectoral),
+            ("C44", 5.0 / 28.0 * sectoral * sectoral),
+        ];
+        let largest = [b * b + c * c, a * a + c * c, a * a + b * b].into_iter().fold(0.0, f64::max) / 5.0;
+        Self::new(&coefficients, radius)?.inertia_factor(largest)
+    }
+
+    /// The coefficients by their names.
+    pub fn coefficients(&self) -> &[(String, f64)] {
+        &self.coefficients
+    }
+
+    /// The reference radius.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// C/(M R²) as it was set.
+    pub fn asked_inertia_factor(&self) -> Option<f64> {
+        self.inertia_factor
+    }
+
+    fn coefficient(&self, name: &str) -> Option<f64> {
+        self.coefficients.iter().find(|(own, _)| own == name).map(|(_, value)| *value)
+    }
+
+    /// The field with M R² from the inertia tensor of its body.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] without an inertia factor and a C20 that gives it.
+    pub(super) fn of_body(self, inertia: &[[f64; 3]; 3], largest: f64) -> Result<Self, Error> {
+        let oblateness = inertia[2][2] - 0.5 * (inertia[0][0] + inertia[1][1]);
+        let mass_radius_squared = match (self.inertia_factor, self.coefficient("C20")) {
+            (Some(factor), _) => largest / factor,
+            (None, Some(zonal)) if -oblateness / zonal > 0.0 && (oblateness / zonal).is_finite() => -oblateness / zonal,
+            _ => {
+                let bound = "given, C/(M R²) with the largest moment C, or C20 of the sign of (I11 + I22)/2 − I33";
+                return Err(refused("inertia_factor", "None", bound));
+            }
+        };
+        Ok(Self { mass_radius_squared, ..self })
+    }
+
+    /// The coefficients of degree 2 that differ from those of the inertia tensor: name, as given, of the tensor.
+    pub(super) fn different(&self, inertia: &[[f64; 3]; 3]) -> Vec<(&'static str, f64, f64)> {
+        let [[i11, i12, i13], [_, i22, i23], [.., i33]] = *inertia;
+        let of_tensor = [0.5 * (i11 + i22) - i33, -i13, -i23, 0.25 * (i22 - i11), -0.5 * i12]
+            .map(|part| part / self.mass_radius_squared);
+        let largest = of_tensor.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+        let pairs = OF_INERTIA.into_iter().zip(of_tensor);
+        let given = pairs.filter_map(|(name, tensor)| Some((name, self.coefficient(name)?, tensor)));
+        given.filter(|(_, given, tensor)| (given - tensor).abs() > DIFFERENT * largest.max(given.abs())).collect()
+    }
+
+    /// The same field about other axes, the columns of a rotation in the old components.
+    pub(super) fn turned(&self, axes: &Square) -> Self {
+        Self { turn: product(&self.turn, axes), ..self.clone() }
+    }
+
+    /// The torques of degree 3 and 4 by a disturbing body.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for an orbit without a semi-major axis.
+    pub(super) fn torques(&self, body: &DisturbingBody) -> Result<Vec<Torque>, Error> {
+        // G m′/R³
+        let (path, strength) = match body {
+            DisturbingBody::Orbit(orbit) => {
+                let Some(size) = orbit.asked_semi_major_axis() else {
+                    let bound = "with semi_major_axis, in the unit of the radius of the gravity field";
+                    return Err(refused("orbit", "without semi_major_axis", bound));
+                };
+                (SourcePath::Orbit(*orbit), orbit.strength() * (size / self.radius).powi(3))
+            }
+            DisturbingBody::Tabulated(table) => {
+                (SourcePath::Tabulated(table.clone()), table.gm() / self.radius / self.radius / self.radius)
+            }
+        };
+        let factor = -strength * self.mass_radius_squared;
+        let mut torques = Vec::new();
+        for degree in [3_u32, 4] {
+            let Some(polynomials) = self.polynomials(degree, factor)? else { continue };
+            let source = TorqueSource::new("u", path.clone()).falling(f64::from(degree) + 1.0, self.radius);
+            torques.push(Torque::of_shape(&polynomials, source)?.turned(&self.turn));
+        }
+        Ok(torques)
+    }
+
+    /// A factor times u × ∇Y_n; `None` if all coefficients are 0.
+    fn polynomials(&self, degree: u32, factor: f64) -> Result<Option<[Polynomial<f64>; 3]>, Error> {
+        let names = ["x", "y", "z"];
+        let parse = |text: &str| Polynomial::<f64>::parse(text, &names).map_err(Error::Series);
+        let own = HARMONICS.iter().filter(|(name, _)| name[1..2] == degree.to_string());
+        let given = own.filter_map(|(name, text)| Some((self.coefficient(name).filter(|value| *value != 0.0)?, text)));
+        let parts: Vec<String> = given.map(|(value, text)| format!("({:?})*({text})", value * factor)).collect();
+        if parts.is_empty() {
+            return Ok(None);
+        }
+        let harmonic = parse(&parts.join(" + "))?;
+        let component = |i: usize, k: usize| {
+            let mut sum = Polynomial::zero();
+            for (place, slope, sign) in [(i, k, 1.0), (k, i, -1.0)] {
+                let slope = harmonic.derivative(slope).map_err(Error::Series)?;
+                let product = parse(names[place])?.multiply(&slope).map_err(Error::Series)?;
+                product.terms().for_each(|(monomial, coefficient)| sum.add_term(monomial, &(sign * coefficient)));
+            }
+            Ok::<_, Error>(sum)
+        };
+        Ok(Some([component(1, 2)?, component(2, 0)?, component(0, 1)?]))
+    }
+}
+
+fn refused(argument: &'static str, value: impl ToString, bound: &str) -> Error {
+    Error::Torque { argument, value: value.to_string(), bound: bound.to_owned() }
+}
