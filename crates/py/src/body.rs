@@ -5,11 +5,12 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
+use crate::gravity::{Gravity, with_gravity};
 use crate::values::immutable;
 use crate::{array, error};
 
 /// The arguments of `pickle` for a body with its own axes: a function and its arguments.
-type Reduced<'py, 'a> = (Bound<'py, PyAny>, (Rows, Option<&'a str>, bool));
+type Reduced<'py, 'a> = (Bound<'py, PyAny>, (Rows, Option<&'a str>, bool, Option<Gravity>));
 
 /// A rigid body, given by its principal moments of inertia.
 ///
@@ -19,6 +20,8 @@ type Reduced<'py, 'a> = (Bound<'py, PyAny>, (Rows, Option<&'a str>, bool));
 ///     Positive moments of inertia about body axes 1, 2, 3, in any order and any unit. The largest is at most the sum of the other two.
 /// name : str, optional
 ///     Name of the body, for printing.
+/// gravity : Gravity, optional
+///     The gravity field of degree 3 and 4. Scenes with it and with an orbit are integrated.
 ///
 /// Raises
 /// ------
@@ -57,8 +60,8 @@ immutable!(Body);
 #[pymethods]
 impl Body {
     #[new]
-    #[pyo3(signature = (moments, *, name=None))]
-    fn new(moments: &Bound<'_, PyAny>, name: Option<&str>) -> PyResult<Self> {
+    #[pyo3(signature = (moments, *, name=None, gravity=None))]
+    fn new(moments: &Bound<'_, PyAny>, name: Option<&str>, gravity: Option<&Bound<'_, Gravity>>) -> PyResult<Self> {
         if let Ok(text) = moments.extract::<String>() {
             let hint = format!(
                 "moments must hold three numbers: got {text:?}; a body of the catalogue is Body.named({text:?})"
@@ -70,7 +73,8 @@ impl Body {
                 "moments has shape (3, 3): it must be (3,); a body of an inertia tensor is Body.from_inertia(tensor)";
             return Err(error::input("moments", &[3_i64, 3][..], "(3,)", hint.to_owned()));
         }
-        named(andoyer_propagate::Body::new(array::fixed("moments", moments)?), name)
+        let body = named(andoyer_propagate::Body::new(array::fixed("moments", moments)?), name)?;
+        with_gravity(moments.py(), body.body, gravity.map(Bound::get)).map(Self::from)
     }
 
     /// A body from its inertia tensor about axes that you choose. Attitudes, rates, momenta and derivatives of its scenes are about these axes.
@@ -84,6 +88,8 @@ impl Body {
     ///     Symmetric to 1e-12 of its largest entry, with positive principal moments. The largest is at most the sum of the other two.
     /// name : str, optional
     ///     Name of the body, for printing.
+    /// gravity : Gravity, optional
+    ///     The gravity field of degree 3 and 4 about the same axes.
     ///
     /// Raises
     /// ------
@@ -100,9 +106,14 @@ impl Body {
     ///        [-0.707,  0.707,  0.   ],
     ///        [ 0.   ,  0.   ,  1.   ]])
     #[staticmethod]
-    #[pyo3(signature = (tensor, *, name=None))]
-    fn from_inertia(tensor: &Bound<'_, PyAny>, name: Option<&str>) -> PyResult<Self> {
-        named(andoyer_propagate::Body::from_inertia(array::matrix("tensor", tensor)?), name)
+    #[pyo3(signature = (tensor, *, name=None, gravity=None))]
+    fn from_inertia(
+        tensor: &Bound<'_, PyAny>,
+        name: Option<&str>,
+        gravity: Option<&Bound<'_, Gravity>>,
+    ) -> PyResult<Self> {
+        let body = named(andoyer_propagate::Body::from_inertia(array::matrix("tensor", tensor)?), name)?;
+        with_gravity(tensor.py(), body.body, gravity.map(Bound::get)).map(Self::from)
     }
 
     /// A homogeneous ellipsoid with semi-axes a, b, c along body axes 1, 2, 3. Its moments are m (b² + c²)/5, m (a² + c²)/5, m (a² + b²)/5.
@@ -285,11 +296,20 @@ impl Body {
         self.body.name()
     }
 
+    /// The gravity field of degree 3 and 4, or None.
+    #[getter]
+    fn gravity(&self) -> Option<Gravity> {
+        self.body.gravity().cloned().map(Gravity)
+    }
+
     pub(crate) fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let name = match self.body.name() {
+        let mut name = match self.body.name() {
             Some(name) => format!(", name={}", name.into_pyobject(py)?.repr()?),
             None => String::new(),
         };
+        if let Some(gravity) = self.gravity() {
+            name += &format!(", gravity={}", gravity.__repr__(py)?);
+        }
         Ok(if self.body.has_tensor() {
             format!("Body.from_inertia({:?}{name})", self.body.inertia())
         } else {
@@ -305,8 +325,13 @@ impl Body {
 
     /// Rebuilds a body for `pickle`.
     #[staticmethod]
-    #[pyo3(signature = (inertia, name, by_tensor=false))]
-    fn _restored(inertia: [[f64; 3]; 3], name: Option<&str>, by_tensor: bool) -> PyResult<Self> {
+    #[pyo3(signature = (inertia, name, by_tensor=false, gravity=None))]
+    fn _restored(
+        inertia: [[f64; 3]; 3],
+        name: Option<&str>,
+        by_tensor: bool,
+        gravity: Option<&Bound<'_, Gravity>>,
+    ) -> PyResult<Self> {
         let [[a, p, q], [_, b, r], [_, _, c]] = inertia;
         let by_moments = !by_tensor && [p, q, r] == [0.0; 3];
         let body = if by_moments {
@@ -314,11 +339,14 @@ impl Body {
         } else {
             andoyer_propagate::Body::from_inertia(inertia)
         };
-        named(body, name)
+        let Body { body, .. } = named(body, name)?;
+        let field = gravity.map(|gravity| gravity.get().0.clone());
+        let body = field.map_or_else(|| Ok(body.clone()), |field| body.clone().with_gravity(field));
+        body.map(Self::from).map_err(error::propagation)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py, '_>> {
-        let body = (self.body.inertia(), self.body.name(), self.body.has_tensor());
+        let body = (self.body.inertia(), self.body.name(), self.body.has_tensor(), self.gravity());
         Ok((py.get_type::<Self>().getattr("_restored")?, body))
     }
 }

@@ -26,6 +26,7 @@ mod field;
 mod field_torque;
 mod foreign;
 mod form;
+mod gravity;
 mod kernel;
 mod libration;
 mod material;
@@ -79,6 +80,8 @@ mod _core {
     use super::evolution::{Drift, Evolution, EvolutionEnd, EvolutionPlan, EvolvedStates};
     #[pymodule_export]
     use super::field::Field;
+    #[pymodule_export]
+    use super::gravity::Gravity;
     #[pymodule_export]
     use super::kernel::{_clock_code, _frame_code, _write_motion, _write_samples};
     #[pymodule_export]

@@ -6,9 +6,11 @@ use nalgebra::Vector3;
 
 use super::problem::Refusal;
 use super::tables::{
-    BodyTable, FieldTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable, SourceTable, StateTable, TorqueTable,
+    BodyTable, FieldTable, GravityTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable, SourceTable, StateTable,
+    TorqueTable,
 };
 use crate::input::body::Body;
+use crate::input::gravity::Gravity;
 use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::input::torque::{SourcePath, Torque, TorqueSource};
@@ -169,9 +171,24 @@ impl BodyTable {
                 return Err(Refusal::new("body.inertia", problem, "alone"));
             }
         };
+        let body = match self.gravity {
+            Some(gravity) => body.with_gravity(gravity.field()?)?,
+            None => body,
+        };
         Ok(match self.name {
             Some(name) => body.with_name(&name),
             None => body,
+        })
+    }
+}
+
+impl GravityTable {
+    fn field(self) -> Result<Gravity, Refusal> {
+        let named: Vec<(&str, f64)> = self.coefficients.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        let field = Gravity::new(&named, self.radius)?;
+        Ok(match self.inertia_factor {
+            Some(factor) => field.inertia_factor(factor)?,
+            None => field,
         })
     }
 }

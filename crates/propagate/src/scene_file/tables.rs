@@ -2,6 +2,8 @@
 //!
 //! A key that has no field here is an error. Optional keys that are absent are not written.
 
+use std::collections::BTreeMap;
+
 use std::fmt;
 
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -103,6 +105,18 @@ pub(super) struct BodyTable {
     pub(super) inertia: Option<[[f64; 3]; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) name: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) gravity: Option<GravityTable>,
+}
+
+/// `[body.gravity]`: unnormalized coefficients by their names.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GravityTable {
+    pub(super) radius: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) inertia_factor: Option<f64>,
+    pub(super) coefficients: BTreeMap<String, f64>,
 }
 
 /// `[state]`: inertial, or against an orbital frame.

@@ -1,7 +1,10 @@
 //! From a scene to the tables of a file.
 
-use super::tables::{BodyTable, FieldTable, OrbitTable, OrbitTables, SceneTable, SourceTable, StateTable, TorqueTable};
+use super::tables::{
+    BodyTable, FieldTable, GravityTable, OrbitTable, OrbitTables, SceneTable, SourceTable, StateTable, TorqueTable,
+};
 use crate::input::body::Body;
+use crate::input::gravity::Gravity;
 use crate::input::options::{Averaging, Level};
 use crate::input::scene::Scene;
 use crate::input::torque::{SourcePath, Torque, TorqueSource};
@@ -102,6 +105,17 @@ impl BodyTable {
             named: None,
             inertia: tensor.then(|| body.inertia()),
             name: body.name().map(str::to_owned),
+            gravity: body.gravity().map(GravityTable::of),
+        }
+    }
+}
+
+impl GravityTable {
+    fn of(gravity: &Gravity) -> Self {
+        Self {
+            radius: gravity.radius(),
+            inertia_factor: gravity.asked_inertia_factor(),
+            coefficients: gravity.coefficients().iter().cloned().collect(),
         }
     }
 }

@@ -53,9 +53,9 @@ class ToleranceWarning(UserWarning):
 class Body:
     """A rigid body, given by its principal moments of inertia."""
 
-    def __new__(cls, moments: ArrayLike, *, name: str | None = None) -> Body: ...
+    def __new__(cls, moments: ArrayLike, *, name: str | None = None, gravity: Gravity | None = None) -> Body: ...
     @staticmethod
-    def from_inertia(tensor: ArrayLike, *, name: str | None = None) -> Body:
+    def from_inertia(tensor: ArrayLike, *, name: str | None = None, gravity: Gravity | None = None) -> Body:
         """A body from its inertia tensor about axes that you choose. Attitudes, rates, momenta and derivatives of its scenes are about these axes."""
     @staticmethod
     def ellipsoid(a: float, b: float, c: float, *, mass: float = 1.0, name: str | None = None) -> Body:
@@ -106,6 +106,9 @@ class Body:
     @property
     def name(self) -> str | None:
         """The name, or None."""
+    @property
+    def gravity(self) -> Gravity | None:
+        """The gravity field of degree 3 and 4, or None."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __copy__(self) -> Body: ...
@@ -212,6 +215,29 @@ class TabulatedOrbit:
     def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
     def __copy__(self) -> TabulatedOrbit: ...
     def __deepcopy__(self, _memo: Any) -> TabulatedOrbit: ...
+
+@final
+class Gravity:
+    """The gravity field of a rotating body of degree 3 and 4, for `Body(..., gravity=...)`. Disturbing bodies exert torques on it beside the gravity gradient; a scene with them is integrated."""
+
+    def __new__(cls, coefficients: dict[str, float], radius: float, *, inertia_factor: float | None = None) -> Gravity: ...
+    @classmethod
+    def ellipsoid(cls, a: float, b: float, c: float, *, radius: float | None = None) -> Gravity:
+        """The field of degree 4 of a homogeneous ellipsoid with semi-axes a, b, c along body axes 1, 2, 3 (G. Balmino 1994). That of degree 3 is 0."""
+    @property
+    def coefficients(self) -> dict[str, float]:
+        """The coefficients by their names, as they were given."""
+    @property
+    def radius(self) -> float:
+        """The reference radius."""
+    @property
+    def inertia_factor(self) -> float | None:
+        """C/(M R²) as it was given, or None."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
+    def __copy__(self) -> Gravity: ...
+    def __deepcopy__(self, _memo: Any) -> Gravity: ...
 
 @final
 class Field:
