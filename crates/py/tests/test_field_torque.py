@@ -1,0 +1,163 @@
+"""Dipoles and eddy currents in a tilted field that turns, against SciPy's DOP853."""
+
+import pickle
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import andoyer
+
+RADIUS, EQUATORIAL = 6371.2, 2.98e-5
+AXIS = np.array([0.05, 0.16, -0.98])
+RATE = 7.292115e-5
+BODY = [0.9, 1.1, 1.4]
+
+
+def orbit(seed=0):
+    rng = np.random.default_rng(seed)
+    return andoyer.Orbit(1.08e-3, rng.uniform(0, 0.2), semi_major_axis=7000.0 / (1 - 0.2), inclination=rng.uniform(0.2, 2.9), node=rng.uniform(0, 6), argument_of_pericentre=rng.uniform(0, 6), time_of_pericentre=rng.uniform(0, 3000))
+
+
+def field_at(path, t):
+    place = path.position(t)
+    distance = np.linalg.norm(place)
+    r, m = place / distance, AXIS / np.linalg.norm(AXIS)
+    c, s = np.cos(RATE * t), np.sin(RATE * t)
+    m = np.array([c * m[0] - s * m[1], s * m[0] + c * m[1], m[2]])
+    return EQUATORIAL * (RADIUS / distance) ** 3 * (3 * (m @ r) * r - m)
+
+
+def earth(path):
+    return andoyer.Field.dipole(radius=RADIUS, equatorial=EQUATORIAL, axis=AXIS, orbit=path, rotation_rate=RATE)
+
+
+def rotated(q, v):
+    """Inertial to body components."""
+    x, y, z, w = q
+    u = -np.array([x, y, z])
+    return v + 2 * np.cross(u, np.cross(u, v) + w * v)
+
+
+def integrated(path, torque, start, rates, span):
+    moments = np.array(BODY)
+
+    def slope(t, y):
+        x, y_, z, w = y[:4]
+        q = np.array([[w, -z, y_], [z, w, -x], [-y_, x, w], [-x, -y_, -z]])
+        b = rotated(y[:4] / np.linalg.norm(y[:4]), field_at(path, t))
+        return np.concatenate([0.5 * q @ y[4:], (torque(b, y[4:]) - np.cross(y[4:], moments * y[4:])) / moments])
+
+    return solve_ivp(slope, (0, span), np.concatenate([start, rates]), method="DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
+
+
+def difference(found, exact):
+    exact = exact / np.linalg.norm(exact)
+    return 2 * min(np.linalg.norm(found - sign * exact) for sign in (1, -1))
+
+
+def test_the_field_is_that_of_the_formula():
+    path = orbit()
+    times = np.linspace(-3000, 9000, 7)
+    found = earth(path).at(times)
+    assert np.allclose(found, [field_at(path, t) for t in times], rtol=0, atol=1e-19)
+    # On the pole of a dipole the field is twice as strong as on its equator.
+    polar = andoyer.Field.dipole(radius=1.0, equatorial=3.0, orbit=andoyer.Orbit(1.0, semi_major_axis=2.0, inclination=np.pi / 2))
+    assert np.linalg.norm(polar.at(0.0)) == pytest.approx(3 / 8)
+    assert polar.at(np.pi / 2) == pytest.approx([0, 0, 6 / 8], abs=1e-15)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_dipole_and_eddy_currents_move_a_body_as_dop853_says(seed):
+    rng = np.random.default_rng(100 + seed)
+    path, span = orbit(seed), 20000.0
+    moment, tensor = rng.normal(size=3) * 30, np.diag(rng.uniform(1, 4, size=3)) * 3e5
+    tensor[0, 1] = tensor[1, 0] = 2e4
+    start = rng.normal(size=4)
+    start, rates = start / np.linalg.norm(start), rng.normal(size=3) * 2e-3
+    exact = integrated(path, lambda b, w: np.cross(moment, b) + np.cross(tensor @ np.cross(w, b), b), start, rates, span)
+    torques = [andoyer.Torque.dipole(moment, earth(path)), andoyer.Torque.eddy(tensor, earth(path))]
+    motion = andoyer.Scene(andoyer.Body(BODY), start, rates, torques=torques, span=(0, span), tolerance=1e-10).solve()
+    error = difference(motion.attitude(span), exact[:4])
+    assert error < 1e-9
+    assert difference(motion.attitude(span), exact[:4]) < motion.plan.error_bound + 1e-9
+    assert motion.verify().holds
+    assert np.allclose(motion.angular_velocity(span), exact[4:], rtol=0, atol=1e-11)
+
+
+def test_a_detumbling_law_by_texts():
+    path, span, gain = orbit(), 20000.0, 2e3
+    start, rates = np.array([0.5, 0.5, -0.5, 0.5]), np.array([3e-3, -2e-3, 1e-3])
+
+    def torque(b, w):
+        u = b / np.linalg.norm(b)
+        return np.cross(gain * np.cross(u, w), b)
+
+    exact = integrated(path, torque, start, rates, span)
+    law = ["2e3*(b2*w3 - b3*w2)", "2e3*(b3*w1 - b1*w3)", "2e3*(b1*w2 - b2*w1)"]
+    motion = andoyer.Scene(andoyer.Body(BODY), start, rates, torques=andoyer.Torque.dipole(law, earth(path)), span=(0, span), tolerance=1e-10).solve()
+    assert difference(motion.attitude(span), exact[:4]) < 1e-9
+    assert np.linalg.norm(motion.angular_velocity(span)) < 0.9 * np.linalg.norm(rates)
+
+
+def test_a_table_of_the_field_is_the_field():
+    path, span = orbit(), 6000.0
+    times = np.arange(-100, span + 101, 20.0)
+    table = andoyer.Field.table(times, [field_at(path, t) for t in times])
+    ends = []
+    for field in (table, earth(path)):
+        torque = andoyer.Torque.dipole([5.0, 2.0, -3.0], field)
+        motion = andoyer.Scene(andoyer.Body(BODY), [0, 0, 0, 1], [1e-3, 2e-3, 3e-3], torques=torque, span=(0, span), tolerance=1e-8).solve()
+        ends.append(motion.attitude(span))
+    assert 0 < difference(*ends) < 1e-9
+
+
+def test_eddy_currents_of_a_sphere_decay_with_their_known_time():
+    # A uniform field across the rotation: ω(t) = ω(0) exp(−K B² t/I) (Ortiz Gómez and Walker 2015, for a sphere).
+    motion = andoyer.Scene(andoyer.Body([2, 2, 2]), [0, 0, 0, 1], [0, 0, 1], torques=andoyer.Torque.eddy(5e2, [0, 4e-3, 0]), span=(0, 300), tolerance=1e-9).solve()
+    assert motion.angular_velocity(300.0)[2] == pytest.approx(np.exp(-5e2 * 16e-6 * 300 / 2), rel=1e-9)
+    along = andoyer.Scene(andoyer.Body([2, 2, 2]), [0, 0, 0, 1], [0, 1, 0], torques=andoyer.Torque.eddy(5e2, [0, 4e-3, 0]), span=(0, 300), tolerance=1e-9).solve()
+    assert along.angular_velocity(300.0)[1] == pytest.approx(1.0, abs=1e-12)
+
+
+def test_fields_and_their_torques_are_kept_by_files_and_pickles(tmp_path):
+    field = earth(orbit())
+    torque = andoyer.Torque.dipole([1.0, 2.0, 3.0], field)
+    assert pickle.loads(pickle.dumps(field)) == field
+    assert pickle.loads(pickle.dumps(torque)) == torque
+    scene = andoyer.Scene(andoyer.Body(BODY), [0, 0, 0, 1], [0, 0, 1e-3], torques=torque, span=(0, 100))
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+    assert andoyer.Scene.from_toml(tmp_path / "scene.toml") == scene
+    table = andoyer.Field.table(np.arange(9.0), np.ones((9, 3)))
+    assert pickle.loads(pickle.dumps(table)) == table
+
+
+@pytest.mark.parametrize(
+    ("given", "argument"),
+    [
+        ({"radius": 0.0}, "radius"),
+        ({"equatorial": np.nan}, "equatorial"),
+        ({"axis": (0, 0, 0)}, "axis"),
+        ({"rotation_rate": np.inf}, "rotation_rate"),
+        ({"orbit": andoyer.Orbit(1e-3)}, "orbit"),
+        ({"radius": 1e-300}, "radius"),
+    ],
+)
+def test_bad_fields_are_refused(given, argument):
+    arguments = {"radius": RADIUS, "equatorial": EQUATORIAL, "orbit": orbit()} | given
+    with pytest.raises(andoyer.InputError) as caught:
+        andoyer.Field.dipole(**arguments)
+    assert caught.value.argument == argument
+
+
+def test_bad_torques_are_refused():
+    with pytest.raises(andoyer.InputError, match="moment"):
+        andoyer.Torque.dipole([np.nan, 0, 0], earth(orbit()))
+    with pytest.raises(TypeError, match="field must be a Field or three numbers, not"):
+        andoyer.Torque.dipole([1, 0, 0], orbit())
+    with pytest.raises(andoyer.InputError, match="conductivity"):
+        andoyer.Torque.eddy(np.inf, earth(orbit()))
+    with pytest.raises(TypeError, match="three"):
+        andoyer.Torque.dipole(["b1", "b2"], earth(orbit()))
+    with pytest.raises(andoyer.InputError, match="origin"):
+        andoyer.Field.table(np.arange(9.0), np.zeros((9, 3)))
