@@ -111,7 +111,7 @@ def orbital(
 
 def angles_against(motion: Motion | Ensemble, times: ArrayLike | None, panels: list[Axes], asked: dict[str, Any], time_unit: str | None) -> tuple[str, Array]:
     """Draw the three angles and the rate into four panels. Returns the name of the motion or of the ensemble, and the times."""
-    several, moving = isinstance(motion, Ensemble), np.ones(1, bool)
+    several, missing = isinstance(motion, Ensemble), 0
     scenes = [scene for scene in motion.scenes if scene is not None] if isinstance(motion, Ensemble) else [motion.scene]
     if not scenes:
         raise refusal("motion", "no members with a motion", "at least one", "has no member with a motion")
@@ -128,7 +128,7 @@ def angles_against(motion: Motion | Ensemble, times: ArrayLike | None, panels: l
         moving = np.isfinite(angles).all(axis=(1, 2))
         if not moving.any():
             raise refusal("motion", "no members with a motion", "at least one", "has no member with a motion")
-        angles, rates = angles[moving], rates[moving]
+        missing, angles, rates = int((~moving).sum()), angles[moving], rates[moving]
     sequence = str(asked["sequence"]).upper()
     angles = np.degrees(continuous(angles, sequence))
     if several:
@@ -165,7 +165,7 @@ def angles_against(motion: Motion | Ensemble, times: ArrayLike | None, panels: l
     panels[0].figure.align_ylabels(panels)
     if not several:
         return scenes[0].name or scenes[0].body.name or "", drawn
-    missing = moving.size - len(angles)
+
     return f"{len(angles)} members" + (f", {missing} without a motion" if missing else ""), drawn
 
 
