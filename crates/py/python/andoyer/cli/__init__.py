@@ -139,7 +139,7 @@ def parser() -> Parser:
     command = commands.add_parser("convert", help=f"write {writes}", description=f"Write {writes}.", **examples("", EXAMPLES["convert"]))
     converting.add_arguments(command)
 
-    pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole; of a libration its angles and terms"
+    pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole; of a libration its angles and terms; of a satellite roll, pitch and yaw against its orbit"
     add_plot(commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"])))
 
     writes = "write a function in C, Rust, Python or JavaScript that evaluates a motion and needs only its language"
