@@ -11,7 +11,7 @@ import pytest
 from conftest import REPOSITORY
 
 import andoyer
-from andoyer._quaternions import angle_between, rotate
+from andoyer._quaternions import angle_between, product, rotate
 from andoyer.cli import main
 from andoyer.output.page import MOST_NODES, NODES, evaluator, page
 
@@ -137,3 +137,26 @@ def test_film_shows_the_axes_of_the_body_with_the_momentum_upwards():
         assert np.linalg.norm(tip) == pytest.approx(1) and tip[2] == pytest.approx(expected, abs=1e-12)
     assert axes.texts[0].get_text() == "t = 2.5"
     film._draw_was_started = True
+
+
+def test_page_of_a_satellite_has_its_orbital_frame(tmp_path):
+    given = {"elements_of": "rotating", "frame": "lvlh"}
+    orbit = andoyer.Orbit(1e-3, 0.1, inclination=0.5)
+    motion = andoyer.Scene.from_orbital(BODY, [0.3, 0.2, 0.1], [0, 0, 0], orbit=orbit, **given, span=(0, 20000), tolerance=1e-8, method="integrated").solve()
+    page(motion, tmp_path / "satellite.html", elements_of="rotating")
+    text = (tmp_path / "satellite.html").read_text(encoding="utf-8")
+    data = json.loads(re.search(r'<script id="data" type="application/json">(.*?)</script>', text, re.DOTALL)[1])
+    assert (data["start"], data["stop"]) == (0, 20000)
+    frames = np.array(data["orbit"]["frames"])
+    # Between nodes as the page has it: the attitude of the frame, turned onto that of the body.
+    times = np.random.default_rng(1).uniform(0, 20000, 200)
+    places = times / 20000 * (len(frames) - 1)
+    lower = np.minimum(places.astype(int), len(frames) - 2)
+    mixed = frames[lower] + (places - lower)[:, None] * (frames[lower + 1] - frames[lower])
+    mixed /= np.linalg.norm(mixed, axis=1, keepdims=True)
+    assert angle_between(product(mixed, motion.orbital(times, **given).attitude), motion.attitude(times)).max() < 1e-4
+    page(motion, tmp_path / "plain.html")
+    assert '"frames":' not in (tmp_path / "plain.html").read_text(encoding="utf-8")
+    with pytest.raises(andoyer.InputError, match="elements_of"):
+        page(motion, tmp_path / "bad.html", elements_of="satellite")
+    assert not (tmp_path / "bad.html").exists()

@@ -92,9 +92,10 @@ def test_summary_of_a_flyby_covers_its_span(epoch):
     ends = motion.angular_momentum([0.0, 7 * 86400.0])
     ends /= np.linalg.norm(ends, axis=1, keepdims=True)
     # The picture is a projection along the first direction.
-    turned = np.linalg.norm(np.cross(*ends)) * 648000 / np.pi
+    turned = np.degrees(np.linalg.norm(np.cross(*ends)))
     drawn = path.lines[0].get_xydata()
     assert np.linalg.norm(drawn[-1]) == pytest.approx(turned, rel=1e-9) and turned > 10
+    assert path.get_xlabel().endswith("[deg]")
     assert all(panel.get_xlim() == (0.0, 7 * 86400.0) for panel in panels)
 
 

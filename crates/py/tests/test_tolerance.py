@@ -67,6 +67,11 @@ def test_ensemble_warns_once_with_the_number_of_members_and_the_worst():
         [warning] = caught
         assert f"3 of 4 members miss the tolerance, the worst is member {np.argmax(bounds)}: " in str(warning.message)
         assert shown(max(bounds)) in str(warning.message)
+    # A member has its plan; 32 warnings for 40 members said no more.
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert [motion.plan.meets_tolerance for motion in ensemble] == [bound <= 1e-12 for bound in bounds]
+        assert ensemble[0].plan.missed_tolerance is not None
 
 
 SCENE = """\

@@ -136,8 +136,8 @@ impl Ensemble {
         let counted = if index < 0 { index.checked_add_unsigned(members) } else { Some(index) };
         match counted.and_then(|index| usize::try_from(index).ok()).filter(|&index| index < members) {
             Some(index) => {
+                // Its plan says whether the tolerance is met; the ensemble warns once for all of its members.
                 let motion = detached(py, error::propagation, || self.0.motion(index))?;
-                error::warn_of_tolerance(py, motion.plan().missed_tolerance())?;
                 Ok(Bound::new(py, Motion(motion, self.calendar(index)))?.into_any())
             }
             None => Err(PyIndexError::new_err(format!("member {index} of an ensemble of {members}"))),

@@ -57,6 +57,7 @@ andoyer plan eros.toml --verify --stop 86400""",
     "plot": """\
 andoyer plot eros.toml -o eros.png
 andoyer plot eros.toml -o eros.html
+andoyer plot satellite.toml -o angles.png --orbital lvlh --elements-of rotating
 andoyer plot eros.aem -o difference.png --against eros.toml --date 2026-01-01T00:00:00""",
     "code": """\
 andoyer code apophis.toml -o apophis.c
@@ -138,7 +139,7 @@ def parser() -> Parser:
     command = commands.add_parser("convert", help=f"write {writes}", description=f"Write {writes}.", **examples("", EXAMPLES["convert"]))
     converting.add_arguments(command)
 
-    pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole; of a libration its angles and terms"
+    pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole; of a libration its angles and terms; of a satellite roll, pitch and yaw against its orbit"
     add_plot(commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"])))
 
     writes = "write a function in C, Rust, Python or JavaScript that evaluates a motion and needs only its language"
@@ -171,7 +172,7 @@ def add_propagate(command: argparse.ArgumentParser) -> None:
     spacing = command.add_mutually_exclusive_group()
     spacing.add_argument("--samples", type=sample_count, metavar="N", help=f"number of times, the last one included (default: {SAMPLES})")
     spacing.add_argument("--step", type=step, metavar="DT", help="time between samples")
-    writing.add_orbital(command)
+    writing.add_orbital(command, "columns against the orbital frame, beside the inertial ones (.csv, .npz, .parquet)", "needed")
     writing.add_options(command)
     strictly(command)
     command.set_defaults(run=propagate)
@@ -184,6 +185,8 @@ def add_plot(command: argparse.ArgumentParser) -> None:
         "-o", "--output", metavar="FILE", required=True, help="file to write; its ending chooses the format: .png, .svg, .pdf, or .html for an animated page"
     )
     command.add_argument("--force", action="store_true", help="replace an existing file")
+    drawn = "angles against the orbital frame, and the rate against it, instead of the polhode (of a .html: it turns with the orbit)"
+    writing.add_orbital(command, drawn, "alone it draws the summary of a satellite (default: as the scene file says beside its frame)")
     reading.add_options(command)
     strictly(command)
     command.set_defaults(run=plot)
@@ -209,11 +212,11 @@ def propagate(arguments: argparse.Namespace) -> int:
     given = writing.check(arguments)
     motion = solved(arguments.scene)
     if arguments.output != "-" and path.suffix.lower() in writing.KERNELS:
-        writing.orbital(arguments, motion, [])
+        writing.orbital_samples(arguments, motion, [])
         writing.write_kernel(path, motion, interval(motion, arguments.start, arguments.stop), given, arguments.force)
         return status(arguments, motion)
     samples = motion.at(requested_times(arguments, motion))
-    against = writing.orbital(arguments, motion, samples.times)
+    against = writing.orbital_samples(arguments, motion, samples.times)
     if arguments.output == "-":
         progress = ProgressBar("writing, lines")
         try:
@@ -235,17 +238,32 @@ def plot(arguments: argparse.Namespace) -> int:
         writing.refuse_existing(path)
     if path.suffix.lower() == ".html":
         return turning(arguments, path)
+    of_file = reading.is_attitude_file(arguments.scene)
+    if of_file:
+        reading.refuse_orbital(arguments)
+    said = None if of_file else reading.elements_of(arguments.scene)
+    against = writing.of_orbital(arguments, said, alone=("elements_of",))
     extra("matplotlib", "drawing").use("Agg")
     from andoyer import plot as pictures
+    from andoyer.plot._time import turns_with_orbit
 
-    if reading.is_attitude_file(arguments.scene):
+    if of_file:
         samples = reading.read(arguments)
         motion = solved(arguments.against) if arguments.against else None
         figure = pictures.samples_summary(samples, motion, name=Path(arguments.scene).name)
     else:
         reading.refuse_options(arguments)
         motion = solved(arguments.scene)
-        figure = pictures.summary(motion) if motion.libration is None else pictures.libration_summary(motion)
+        try:
+            if against is not None:
+                figure = pictures.orbital(motion, **against)
+            elif motion.libration is not None and arguments.elements_of is None:
+                figure = pictures.libration_summary(motion)
+            else:
+                said = said if turns_with_orbit(motion) else None
+                figure = pictures.summary(motion, elements_of=arguments.elements_of or said)
+        except andoyer.Error as error:
+            raise InputError(str(error)) from error
     with writing.written_to(path), whole_file(path, arguments.force) as temporary:
         figure.savefig(temporary, dpi=130, format=path.suffix.lower()[1:])
     return 0 if motion is None else status(arguments, motion)
@@ -256,9 +274,19 @@ def turning(arguments: argparse.Namespace, path: Path) -> int:
     reading.refuse_options(arguments)
     if reading.is_attitude_file(arguments.scene):
         raise InputError(f"argument -o/--output: {arguments.output}: a page is of a scene, not of a file of attitudes")
+    for key in ("sequence", "of"):
+        if getattr(arguments, key) is not None:
+            raise InputError(f"argument --{key}: does not go with a .html")
+    against = writing.of_orbital(arguments, reading.elements_of(arguments.scene), alone=("elements_of",))
+    whose = against["elements_of"] if against else arguments.elements_of
     motion = solved(arguments.scene)
+    if whose is not None:
+        try:
+            motion.orbital(motion.scene.epoch, elements_of=whose)
+        except andoyer.Error as error:
+            raise InputError(str(error)) from error
     with writing.written_to(path):
-        page(motion, path, force=arguments.force)
+        page(motion, path, elements_of=whose, force=arguments.force)
     return status(arguments, motion)
 
 

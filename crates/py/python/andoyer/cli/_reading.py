@@ -1,7 +1,9 @@
 """The input of `andoyer plot`: a scene, or a file of attitudes with an optional scene."""
 
 import argparse
+import tomllib
 from pathlib import Path
+from typing import Any
 
 import andoyer
 from andoyer import output
@@ -27,11 +29,30 @@ def is_attitude_file(path: str) -> bool:
     return Path(path).suffix.lower() in ATTITUDE_FILES
 
 
+def elements_of(path: str) -> Any:
+    """Whose orbit a scene file has, as it says beside the frame of its state; None where it does not, or where the frame is that of another than the first body."""
+    file = Path(path)
+    # A pipe can be read only once, and an unreadable file is refused where it is solved.
+    try:
+        text = file.read_text(encoding="utf-8") if file.is_file() else ""
+        state = tomllib.loads(text).get("state") if "elements_of" in text else None
+    except (OSError, ValueError):
+        return None
+    return state.get("elements_of") if isinstance(state, dict) and not state.get("of") else None
+
+
 def refuse_options(arguments: argparse.Namespace) -> None:
     """Refuse the options of a file of attitudes for a scene."""
     for key in ("against", "segment", "date"):
         if getattr(arguments, key) is not None:
             raise InputError(f"argument --{key}: goes with a file of attitudes alone ({', '.join(ATTITUDE_FILES)}), not with {arguments.scene}")
+
+
+def refuse_orbital(arguments: argparse.Namespace) -> None:
+    """Refuse the options of the orbital frame for a file of attitudes, which has no orbit."""
+    for key in ("orbital", "elements_of", "sequence", "of"):
+        if getattr(arguments, key) is not None:
+            raise InputError(f"argument --{key.replace('_', '-')}: goes with a scene alone, not with {arguments.scene}")
 
 
 def read(arguments: argparse.Namespace) -> andoyer.Samples:

@@ -116,9 +116,9 @@ def refuse_existing(path: Path) -> None:
         raise InputError(f"argument -o/--output: {path}: File exists; --force replaces it")
 
 
-def add_orbital(command: argparse.ArgumentParser) -> None:
-    """Add the options of the orbital frame."""
-    group = command.add_argument_group("columns against the orbital frame, beside the inertial ones (.csv, .npz, .parquet)")
+def add_orbital(command: argparse.ArgumentParser, title: str, whose: str) -> None:
+    """Add the options of the orbital frame, under a title, with a help text of whose orbit it is."""
+    group = command.add_argument_group(title)
     group.add_argument(
         "--orbital",
         type=str.lower,
@@ -130,26 +130,37 @@ def add_orbital(command: argparse.ArgumentParser) -> None:
         "--elements-of",
         choices=["rotating", "disturbing"],
         metavar="BODY",
-        help="whose orbit the scene has: rotating (a satellite's own) or disturbing (the Sun's); needed",
+        help=f"whose orbit the scene has: rotating (a satellite's own) or disturbing (the Sun's); {whose}",
     )
     group.add_argument("--sequence", metavar="AXES", help="sequence of the three angles (default: ZYX)")
     group.add_argument("--of", type=whole, metavar="N", help="which of several disturbing bodies, from 0 (default: 0)")
 
 
-def orbital(arguments: argparse.Namespace, motion: andoyer.Motion, times: Any) -> andoyer.Orbital | None:
-    """The samples against the orbital frame, if they are asked for."""
+def of_orbital(arguments: argparse.Namespace, elements_of: str | None = None, *, alone: tuple[str, ...] = ()) -> dict[str, Any] | None:
+    """The arguments of `Motion.orbital`, if they are asked for; `elements_of` where the command line does not say it. The options `alone` go without --orbital, too."""
     keys = ("elements_of", "sequence", "of")
     given = {key: getattr(arguments, key) for key in keys if getattr(arguments, key) is not None}
     if arguments.orbital is None:
         for key in given:
-            raise InputError(f"argument --{key.replace('_', '-')}: goes with --orbital alone")
+            if key not in alone:
+                raise InputError(f"argument --{key.replace('_', '-')}: goes with --orbital alone")
         return None
+    if elements_of is not None:
+        given.setdefault("elements_of", elements_of)
     if "elements_of" not in given:
         raise InputError("argument --elements-of: must be given with --orbital, as rotating or disturbing: whose orbit the scene has")
+    return given | {"frame": arguments.orbital}
+
+
+def orbital_samples(arguments: argparse.Namespace, motion: andoyer.Motion, times: Any) -> andoyer.Orbital | None:
+    """The samples against the orbital frame, if they are asked for."""
+    given = of_orbital(arguments)
+    if given is None:
+        return None
     if arguments.output != "-" and Path(arguments.output).suffix.lower() not in (".csv", ".npz", ".parquet"):
         raise InputError("argument --orbital: goes with a .csv, .npz or .parquet alone")
     try:
-        return motion.orbital(times, frame=arguments.orbital, **given)
+        return motion.orbital(times, **given)
     except andoyer.Error as error:
         raise InputError(str(error)) from error
 

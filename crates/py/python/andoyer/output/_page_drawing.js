@@ -1,6 +1,9 @@
 const data = JSON.parse(document.getElementById("data").textContent);
 const canvas = document.getElementById("canvas"), context = canvas.getContext("2d");
 const slider = document.getElementById("time"), play = document.getElementById("play"), speed = document.getElementById("speed");
+const box = document.getElementById("turn");
+document.getElementById("orbit").hidden = !data.orbit;
+box.checked = Boolean(data.orbit);
 
 // Vectors and quaternions [x, y, z, w].
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -30,13 +33,26 @@ function variables(s) {
   return { J: Math.atan2(Math.hypot(m[0], m[1]), m[2]), lambda: positive(lambda), mu: positive(mu), nu: positive(Math.atan2(m[0], m[1])), Lambda: H[2], M, N: m[2] };
 }
 
+// The orbital frame, if the page has one: the quaternion to inertial components, and roll, pitch, yaw of the body in it.
+function frame(t) {
+  const frames = data.orbit.frames, place = Math.max(0, Math.min(1, (t - data.start) / (data.stop - data.start))) * (frames.length - 1);
+  const k = Math.min(Math.floor(place), frames.length - 2), mixed = frames[k].map((part, n) => part + (place - k) * (frames[k + 1][n] - part)), length = Math.hypot(...mixed);
+  return mixed.map(part => part / length);
+}
+const inverse = q => [-q[0], -q[1], -q[2], q[3]];
+function against(s) {
+  const f = inverse(frame(s.t)), [a, b, c] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(axis => rotate(f, rotate(s.q, axis)));
+  return { roll: Math.atan2(b[2], c[2]), pitch: Math.asin(Math.max(-1, Math.min(1, -a[2]))), yaw: Math.atan2(a[1], a[0]) };
+}
+
 // The view: inertial components with the first angular momentum upwards, then turned by the reader.
 const first = state(data.start), up = unit(first.inertialMomentum);
 const east = unit(Math.abs(up[2]) < 0.9 ? cross([0, 0, 1], up) : cross([1, 0, 0], up)), north = cross(up, east);
 const home = { yaw: 0.6, pitch: 0.35, zoom: 1 };
-let view = { ...home };
+let view = { ...home }, turn = null;  // turn: the orbital frame that the view keeps at rest, its axis 3 (to the primary) downwards
 function project(v) {
-  const x = dot(v, east), y = dot(v, north), z = dot(v, up);
+  const w = turn && rotate(inverse(turn), v);
+  const [x, y, z] = w ? [w[0], -w[1], -w[2]] : [dot(v, east), dot(v, north), dot(v, up)];
   const c = Math.cos(view.yaw), s = Math.sin(view.yaw), a = Math.cos(view.pitch), b = Math.sin(view.pitch);
   const right = c * x - s * y, away = s * x + c * y;
   return [right, b * away + a * z, b * z - a * away];  // right, up, towards the reader
@@ -117,7 +133,7 @@ function arrow(tip, foot, color, label, front) {
 
 // Where a direction from the centre leaves the body: of the ellipsoid exactly, of a mesh at the centre.
 function surface(q, v) {
-  const inBody = rotate([-q[0], -q[1], -q[2], q[3]], v);
+  const inBody = rotate(inverse(q), v);
   const level = data.mesh ? Infinity : Math.hypot(...data.axes.map((axis, k) => dot(axis, inBody) / data.semiaxes[k]));
   return scaled(level > 1 ? 1 / level : level > 0 ? 1 : 0, v);
 }
@@ -148,20 +164,22 @@ function drawBody(q) {
 }
 
 function draw(t) {
-  const s = state(t), ratio = window.devicePixelRatio || 1, box = canvas.getBoundingClientRect();
-  if (canvas.width !== Math.round(box.width * ratio) || canvas.height !== Math.round(box.height * ratio)) {
-    canvas.width = Math.round(box.width * ratio);
-    canvas.height = Math.round(box.height * ratio);
+  turn = box.checked ? frame(t) : null;
+  const s = state(t), ratio = window.devicePixelRatio || 1, room = canvas.getBoundingClientRect();
+  if (canvas.width !== Math.round(room.width * ratio) || canvas.height !== Math.round(room.height * ratio)) {
+    canvas.width = Math.round(room.width * ratio);
+    canvas.height = Math.round(room.height * ratio);
   }
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  context.clearRect(0, 0, box.width, box.height);
-  centre = [box.width / 2, box.height / 2];
-  scale = view.zoom * Math.min(box.width, box.height) / (3.6 * radius);
+  context.clearRect(0, 0, room.width, room.height);
+  centre = [room.width / 2, room.height / 2];
+  scale = view.zoom * Math.min(room.width, room.height) / (3.6 * radius);
   const turning = polhode.map(v => place(rotate(s.q, v))), resting = herpolhode(t).map(place);
   const axes = [0, 1, 2].map(k => { const v = [0, 0, 0]; v[k] = 1.25 * radius; return [rotate(s.q, v), COLORS.axes[k], String(k + 1)]; });
   const arrows = [...axes, [scaled(1.5 * radius, unit(s.inertialMomentum)), COLORS.momentum, "M"], [scaled(reach, s.inertialRates), COLORS.rate, "ω"]];
+  if (turn) for (const [axis, label] of [[0, "forward"], [2, "primary"]]) { const v = [0, 0, 0]; v[axis] = 1.5 * radius; arrows.push([rotate(turn, v), css("--pale"), label]); }
   const layer = front => {
-    curve(resting, COLORS.herpolhode, front, 1.2);
+    if (!turn) curve(resting, COLORS.herpolhode, front, 1.2);
     curve(turning, COLORS.polhode, front, 2);
     for (const [tip, color, label] of arrows) if (front || label !== "M" || size(s.momentum) > 0) arrow(tip, surface(s.q, tip), color, label, front);
   };
@@ -180,7 +198,7 @@ function rowOf(table, name, value) {
   return cell;
 }
 const cells = {};
-for (const name of ["t", "J", "λ", "μ", "ν", "Λ/M", "N/M", "ω₁", "ω₂", "ω₃"]) cells[name] = rowOf("now", name, "");
+for (const name of ["t", ...(data.orbit ? ["roll", "pitch", "yaw"] : []), "J", "λ", "μ", "ν", "Λ/M", "N/M", "ω₁", "ω₂", "ω₃"]) cells[name] = rowOf("now", name, "");
 for (const [name, value] of data.facts) rowOf("facts", name, value);
 for (const [color, what] of [...COLORS.axes.map((color, k) => [color, `body axis ${k + 1}`]), [COLORS.momentum, "angular momentum M"], [COLORS.rate, "angular velocity ω; herpolhode"], [COLORS.polhode, "polhode"]]) {
   const key = document.createElement("span");
@@ -194,6 +212,7 @@ function numbers(s) {
   const a = variables(s), degrees = x => `${(x * 180 / Math.PI).toFixed(4)}°`;
   const shown = { t: `${Number(s.t.toPrecision(8))} ${data.unit}`, J: degrees(a.J), "λ": degrees(a.lambda), "μ": degrees(a.mu), "ν": degrees(a.nu), "Λ/M": (a.Lambda / a.M).toFixed(6), "N/M": (a.N / a.M).toFixed(6) };
   s.rates.forEach((rate, k) => { shown[["ω₁", "ω₂", "ω₃"][k]] = `${rate.toExponential(6)} rad/${data.unit}`; });
+  if (data.orbit) for (const [name, angle] of Object.entries(against(s))) cells[name].textContent = `${(angle * 180 / Math.PI).toFixed(2)}°`;
   for (const name in shown) cells[name].textContent = a.M > 0 || name === "t" || name[0] === "ω" ? shown[name] : "–";
 }
 
@@ -217,6 +236,7 @@ function run(on) {
 }
 play.onclick = () => run(!playing);
 slider.oninput = () => { run(false); time = Number(slider.value); draw(time); };
+box.onchange = () => draw(time);
 document.getElementById("view").onclick = () => { view = { ...home }; draw(time); };
 canvas.onpointerdown = event => canvas.setPointerCapture(event.pointerId);
 canvas.onpointermove = event => {
@@ -241,6 +261,6 @@ canvas.onkeydown = event => {
 window.addEventListener("resize", () => draw(time));
 
 // For scripts: the state and the Andoyer variables at a time, and a moment that is held.
-window.andoyer = { evaluate, state, variables: t => variables(state(t)), show: t => { run(false); time = t; draw(t); } };
+window.andoyer = { evaluate, state, variables: t => variables(state(t)), against: t => against(state(t)), show: t => { run(false); time = t; draw(t); } };
 draw(time);
 requestAnimationFrame(tick);

@@ -12,13 +12,13 @@ import json
 import math
 import os
 from importlib import resources
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from andoyer._core import Motion, RepresentationError
-from andoyer._quaternions import angle_between
+from andoyer._quaternions import angle_between, conjugate, product
 from andoyer._refusal import refusal
 from andoyer.output.attitude_types import derivative
 from andoyer.output.files import whole_file
@@ -46,6 +46,7 @@ def page(
     interval: tuple[float, float] | None = None,
     mesh: tuple[ArrayLike, ArrayLike] | None = None,
     unit: str = "s",
+    elements_of: Literal["rotating", "disturbing"] | None = None,
     force: bool = True,
 ) -> float:
     """Write one self-contained HTML page with an animation of the motion.
@@ -65,6 +66,9 @@ def page(
         Vertices (n, 3) in body components, in any unit of length, and faces (m, 3), as indices of vertices, counterclockwise from outside.
     unit : str, optional
         Name of the unit of time.
+    elements_of : {"rotating", "disturbing"}, optional
+        Whose orbit the scene has, as in `Scene.from_orbital`. With it the page shows roll, pitch and yaw against "lvlh", and has a box "turn with the orbit": the view keeps this frame at rest,
+        the primary downwards, with arrows forward and to the primary. The default interval is then the span, at most 60 rotations.
     force : bool, optional
         If True, an existing file is replaced.
 
@@ -78,7 +82,7 @@ def page(
     FileExistsError
         The file exists, and ``force=False``.
     InputError
-        An interval of zero length; for a motion without code (`Motion.to_code`) an interval of more than 208 rotations; a mesh of another shape.
+        An interval of zero length; an unknown `elements_of`, or one of a scene without an orbit; for a motion without code (`Motion.to_code`) an interval of more than 208 rotations; a mesh of another shape.
 
     Examples
     --------
@@ -87,15 +91,18 @@ def page(
     >>> plot.page(motion, "wobble.html") < 1e-13
     True
     """
-    start, stop = _interval(motion) if interval is None else (float(interval[0]), float(interval[1]))
+    start, stop = _interval(motion, elements_of is not None) if interval is None else (float(interval[0]), float(interval[1]))
     if not (math.isfinite(start) and math.isfinite(stop) and start < stop):
         raise refusal("interval", (start, stop), "two finite times", f"must be two finite times, the first below the second: got {(start, stop)!r}")
     source, error = evaluator(motion, start, stop)
     scene = motion.scene
+    data = _data(motion, start, stop, unit, error, mesh)
+    if elements_of is not None:
+        data["orbit"] = _frames(motion, start, stop, elements_of)
     title = html.escape(scene.name or scene.body.name or "A rigid body")
     parts = {
         "@TITLE@": title,
-        "@DATA@": _script(_data(motion, start, stop, unit, error, mesh)),
+        "@DATA@": _script(data),
         "@EVALUATOR@": source,
         "@DRAWING@": _part("_page_drawing.js"),
     }
@@ -150,14 +157,28 @@ def _error(motion: Motion, times: Any, rows: Any) -> float:
     return worst
 
 
-def _interval(motion: Motion) -> tuple[float, float]:
-    """Three periods of the polhode, at most sixty rotations; a unit of time at rest."""
+def _interval(motion: Motion, whole: bool) -> tuple[float, float]:
+    """Three periods of the polhode, or the `whole` span if there is one, at most sixty rotations; a unit of time at rest."""
     start = motion.scene.epoch
     precession, rotation = motion.periods["long-axis"]
     rate = float(np.linalg.norm(motion.scene.angular_velocity))
+    if whole and motion.scene.span is not None:
+        start, stop = motion.scene.span
+        return start, min(stop, start + MOST_ROTATIONS * 2 * math.pi / rate) if rate > 0 else stop
     spans = [PERIODS * rotation, MOST_ROTATIONS * 2 * math.pi / rate if rate > 0 else math.inf, MOST_ROTATIONS * precession]
     span = min(span for span in [*spans, math.inf])
     return within_span(motion, start, start + (span if math.isfinite(span) else 1.0))
+
+
+def _frames(motion: Motion, start: float, stop: float, elements_of: Literal["rotating", "disturbing"]) -> dict[str, Any]:
+    """Quaternions from the frame "lvlh" to inertial components at equal steps. Between them the page interpolates linearly, to some 0.01° times the eccentricity."""
+    few = np.linspace(start, stop, 512)
+    turning = motion.angular_velocity(few) - motion.orbital(few, elements_of=elements_of, frame="lvlh").angular_velocity
+    turns = float(np.max(np.linalg.norm(turning, axis=1))) * (stop - start) / (2 * math.pi)
+    times = np.linspace(start, stop, min(MOST_NODES, max(LEAST_NODES, math.ceil(turns * NODES))) + 1)
+    frames = product(motion.attitude(times), conjugate(motion.orbital(times, elements_of=elements_of, frame="lvlh").attitude))
+    turned = np.concatenate([[False], np.cumsum(np.sum(frames[1:] * frames[:-1], axis=1) < 0) % 2 == 1])
+    return {"frames": (frames * np.where(turned, -1.0, 1.0)[:, None]).round(9).tolist()}
 
 
 def _largest_rate(motion: Motion, start: float, stop: float) -> float:

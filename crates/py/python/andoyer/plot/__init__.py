@@ -1,8 +1,8 @@
-"""Pictures of a motion with matplotlib: polhode, phase portrait, angles, rates, path of the pole, librations.
+"""Pictures of a motion with matplotlib: polhode, phase portrait, angles, rates, path of the pole, librations, roll, pitch and yaw against the orbital frame.
 
 Each function takes a `Motion`, and optionally times and the axes to draw into. It returns the axes; `summary` and the like return a figure. Angles are those of Andoyer
 (theory §1), in degrees. Time axes have calendar dates if the epoch of the scene is a date. Otherwise they have the times of the scene, and `time_unit` names their unit. Without `times` a motion that
-is not periodic is drawn over its whole span: under user torques, beside a hyperbola, a table or several bodies. Lines on the far side of a surface are pale, grey lines are other motions of the same body, and the dashed line is the separatrix. The colours are
+is not periodic is drawn over its whole span: under user torques, beside a hyperbola, a table or several bodies; and so is one that turns with its orbit, as a satellite does. Lines on the far side of a surface are pale, grey lines are other motions of the same body, and the dashed line is the separatrix. The colours are
 those of Okabe and Ito, which colour-blind readers can distinguish; lines also differ in style or marker. The module needs matplotlib, which ``pip install matplotlib`` installs.
 """
 
@@ -30,8 +30,9 @@ from andoyer.plot._evolution import evolution
 from andoyer.plot._film import film
 from andoyer.plot._librations import libration_spectrum, libration_summary, librations, pole_librations
 from andoyer.plot._mode import about, in_order, is_still, mode_axis, names, nutation_angle, precession_and_spin, without_mean
-from andoyer.plot._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION
-from andoyer.plot._time import SAMPLES, Clock, chosen, clock_of, is_periodic, whole_span, whole_turns
+from andoyer.plot._orbital import Whose, angles_against, orbital
+from andoyer.plot._style import BLUE, GREEN, STYLE, VERMILION, angular_unit
+from andoyer.plot._time import SAMPLES, Clock, chosen, clock_of, is_periodic, turns_with_orbit, whole_span, whole_turns
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -44,6 +45,8 @@ TINY = 0.01
 """Amplitude J [rad] below which the polhode is a dot on the sphere, and angles are in microradians."""
 STEADY = 1e-11
 """Variation [rad] of an angle below which it is rounding."""
+ROUNDED = 1e-7
+"""Length [arcsec] of a path of the pole below which it is rounding."""
 
 __all__ = [
     "angles",
@@ -58,6 +61,7 @@ __all__ = [
     "libration_summary",
     "librations",
     "nutation",
+    "orbital",
     "page",
     "phase_portrait",
     "pole_librations",
@@ -119,9 +123,9 @@ def polhode_near_pole(motion: Motion, times: ArrayLike | None = None, axes: Axes
 
 
 def pole_path(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
-    """Draw the inertial path of the direction of the angular momentum, in arcseconds from its start. Without a torque the path is a point.
+    """Draw the inertial path of the direction of the angular momentum, in arcseconds or degrees from its start. Without a torque the path is a point.
 
-    The default times are one period of an elliptic orbit. A motion that is not periodic is drawn over its whole span. East is along z × k and north is from k towards z, where k is the first direction.
+    The default times are one period of an elliptic orbit. A motion that is not periodic, or that turns with its orbit, is drawn over its whole span. East is along z × k and north is from k towards z, where k is the first direction.
     """
     axes = _axes(axes)
     times, title = (chosen(motion, times), "under the torques") if times is not None else _over(motion)
@@ -131,15 +135,19 @@ def pole_path(motion: Motion, times: ArrayLike | None = None, axes: Axes | None 
     first = directions[0]
     east = np.array([-first[1], first[0], 0.0]) if math.hypot(first[0], first[1]) > 1e-9 else np.array([0.0, 1.0, 0.0])
     east /= np.linalg.norm(east)
-    across = (directions - first) @ np.array([east, np.cross(first, east)]).T / ARCSECOND
+    across = (directions - first) @ np.array([east, np.cross(first, east)]).T
+    size, unit = angular_unit(float(np.abs(across).max()), 1.0)
+    across /= size
     axes.plot(*across.T, color=BLUE, linewidth=1.4)
     axes.plot(*across[0], "o", color=BLUE, markersize=6, label="start")
     axes.plot(*across[-1], "s", color=VERMILION, markersize=6, label="end")
-    axes.set(xlabel="east of where it starts [arcsec]", ylabel="north of where it starts [arcsec]")
+    axes.set(xlabel=f"east of where it starts [{unit}]", ylabel=f"north of where it starts [{unit}]")
     scene = motion.scene
     forces = "under the gravity gradient" if title == "under the torques" and not scene.torques else title
     axes.set_title(f"Path of the angular momentum {'without a torque' if scene.orbit is None and not scene.torques else forces}", pad=22)
     axes.margins(0.1)
+    if float(np.abs(across).max()) < ROUNDED and unit == "arcsec":
+        axes.set(xlim=(-1, 1), ylim=(-1, 1))
     axes.ticklabel_format(useOffset=False)
     _legend(axes)
     return axes
@@ -148,11 +156,12 @@ def pole_path(motion: Motion, times: ArrayLike | None = None, axes: Axes | None 
 def _over(motion: Motion) -> tuple[Array, str]:
     """The times of the path of the pole if none are given, and over what they are."""
     scene = motion.scene
-    if is_periodic(motion) and isinstance(scene.orbit, Orbit):
+    periodic = is_periodic(motion) and not turns_with_orbit(motion)
+    if periodic and isinstance(scene.orbit, Orbit):
         stop = scene.epoch + 2 * math.pi / scene.orbit.mean_motion
         reached = within_span(motion, scene.epoch, stop)
         return np.linspace(*reached, SAMPLES), "over one orbit" if reached == (scene.epoch, stop) else "under the torques"
-    if is_periodic(motion) or scene.span is None:
+    if periodic or scene.span is None:
         return whole_turns(motion), "under the torques"
     spanned = whole_span(motion)
     return np.linspace(*scene.span, SAMPLES) if spanned is None else spanned, "over the span"
@@ -247,17 +256,28 @@ def rates(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = No
     return axes
 
 
-def summary(motion: Motion, times: ArrayLike | None = None, *, time_unit: str | None = None) -> Figure:
+def summary(motion: Motion, times: ArrayLike | None = None, *, elements_of: Whose | None = None, time_unit: str | None = None) -> Figure:
     """Draw a figure of a motion: polhode, phase portrait (the path near the pole if J is tiny, the inertial path of the pole under a torque), nutation, angles, rates.
 
+    With `elements_of` it is the figure of a satellite: roll, pitch and yaw against the frame "lvlh" and the rate against it, the body rates, and the inertial path of the angular momentum.
+
     The panels are about the axis that the angular momentum circles at the epoch: the short axis, or the long axis of a body in a long-axis mode. The default times are three periods of the
-    polhode, or the whole span of a motion that is not periodic.
+    polhode, or the whole span of a motion that is not periodic or that turns with its orbit.
 
     Parameters
     ----------
     motion, times, time_unit
         As in `nutation`.
+    elements_of : {"rotating", "disturbing"}, optional
+        Whose orbit the scene has, as in `Scene.from_orbital`. With it the angles are those of `orbital`.
+
+    Raises
+    ------
+    InputError
+        An unknown `elements_of`, or one of a scene without an orbit.
     """
+    if elements_of is not None:
+        return _of_satellite(motion, times, elements_of, time_unit)
     times = chosen(motion, times)
     scene, axis = motion.scene, mode_axis(motion)
     tiny = nutation_angle(about(motion, times, axis)[2]).max() < TINY
@@ -282,6 +302,23 @@ def summary(motion: Motion, times: ArrayLike | None = None, *, time_unit: str | 
             panel.tick_params(labelbottom=False)
             panel.xaxis.get_offset_text().set_visible(False)
         figure.align_ylabels(panels)
+    return figure
+
+
+def _of_satellite(motion: Motion, times: ArrayLike | None, elements_of: Whose, time_unit: str | None) -> Figure:
+    """The figure of a motion against its orbit."""
+    # Refused before there is a figure.
+    motion.orbital(motion.scene.epoch, elements_of=elements_of)
+    asked = {"elements_of": elements_of, "frame": "lvlh", "sequence": "ZYX", "of": 0}
+    with plt.rc_context(STYLE):
+        figure: Figure = plt.figure(figsize=(13, 9), layout="constrained")
+        halves: Any = figure.subfigures(1, 2, width_ratios=(1, 1.25))
+        left, right = halves
+        path, body = left.subplots(2, 1)
+        name, drawn = angles_against(motion, times, list(right.subplots(4, 1, sharex=True)), asked, time_unit)
+        figure.suptitle(name, fontsize=15, fontweight="bold")
+        pole_path(motion, drawn, path)
+        rates(motion, drawn, body, time_unit=time_unit)
     return figure
 
 

@@ -15,7 +15,7 @@ from andoyer._refusal import refusal
 from andoyer.interop._foreign import plain
 from andoyer.output.span import within_span
 from andoyer.plot._diagrams import axes_or_new
-from andoyer.plot._style import ARCSECOND, BLACK, BLUE, GREEN, GREY, STYLE, VERMILION
+from andoyer.plot._style import BLACK, BLUE, GREEN, GREY, STYLE, VERMILION, angular_unit
 from andoyer.plot._time import clock_of
 
 if TYPE_CHECKING:
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 SWINGS, LEAST_ORBITS, SAMPLES = 2, 5, 4000
 """Proper periods in longitude that are drawn if no times are given, at least so many orbits, and how many times."""
-DEGREES = 0.02
-"""Amplitude [deg] above which angles are in degrees, otherwise in arcseconds."""
 LINES = {"longitude": (BLUE, "-", "o", "ψ"), "pole-1": (VERMILION, "-", "^", "θ"), "pole-2": (GREEN, "--", "v", "φ")}
 """Colour, dash, marker and letter of each angle."""
 ROUNDING = 1e-9
@@ -99,7 +97,7 @@ def libration_spectrum(motion: Motion, axes: Axes | None = None) -> Axes:
     terms = _varying(libration)
     largest = max((term.amplitude for term in terms), default=1.0)
     terms = [term for term in terms if term.amplitude > ROUNDING * largest]
-    size, unit = _unit(largest)
+    size, unit = angular_unit(largest)
     for angle, (color, _, marker, letter) in LINES.items():
         for forced, kind in ((False, "free"), (True, "forced")):
             chosen = [term for term in terms if term.angle == angle and (not any(term.multiples[:3])) == forced]
@@ -174,7 +172,7 @@ def _angles(motion: Motion, times: ArrayLike | None, axes: Axes, names: list[str
     clock = clock_of(motion, instants, time_unit)
     if not clock.dated and time_unit is None:
         clock = clock._replace(values=(instants - epoch) / orbit, label="time from the epoch [orbits]")
-    size, unit = _unit(max((float(np.abs(value).max()) for value in values.values() if value.size), default=0.0))
+    size, unit = angular_unit(max((float(np.abs(value).max()) for value in values.values() if value.size), default=0.0))
     for name, value in values.items():
         color, dash, _, letter = LINES[name]
         axes.plot(clock.values, value / size, color=color, linestyle=dash, linewidth=1.2, label=letter)
@@ -193,8 +191,3 @@ def _sum(terms: list[LibrationTerm], elapsed: Array) -> Array:
 
 def _varying(libration: Libration) -> list[LibrationTerm]:
     return [term for term in libration.terms() if math.isfinite(term.period)]
-
-
-def _unit(largest: float) -> tuple[float, str]:
-    """The unit of angles of a size, in rad, and its name."""
-    return (math.pi / 180, "deg") if math.degrees(largest) > DEGREES else (ARCSECOND, "arcsec")

@@ -28,6 +28,8 @@ HOURS, DAYS = 7200.0, 30 * 86400.0
 """A span above which rates are per hour, and a period above which it is in days [s]."""
 TURNS, SAMPLES = 3, 3000
 """Periods of the polhode that are drawn if no times are given, and how many times."""
+SLOW = 10.0
+"""Rate in mean motions of the orbit below which a body turns with its orbit: polhodes are then no more than parts of the motion."""
 PER_TURN, MOST = 16, 48000
 """Times for each turn of the body over a whole span, and the most times; a longer span is not drawn as a whole by itself."""
 
@@ -102,6 +104,14 @@ def is_periodic(motion: Motion) -> bool:
     return not scene.torques and len(orbits) == 1 and (orbits[0] is None or getattr(orbits[0], "eccentricity", 1.0) < 1.0)
 
 
+def turns_with_orbit(motion: Motion) -> bool:
+    """Whether a motion is so slow that the orbit, not the polhode, sets its time: a satellite or a moon, integrated or librating."""
+    scene = motion.scene
+    orbits = scene.orbit if isinstance(scene.orbit, tuple) else (scene.orbit,)
+    rate = max((getattr(orbit, "mean_motion", 0.0) for orbit in orbits), default=0.0)
+    return motion.plan.method in ("integrated", "libration") and float(np.linalg.norm(scene.angular_velocity)) < SLOW * rate
+
+
 def whole_span(motion: Motion) -> Array | None:
     """Times over the span of a motion, enough for every turn of the body; None without a span, or if it has too many turns."""
     if motion.scene.span is None:
@@ -126,8 +136,8 @@ def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> A
 
 
 def chosen(motion: Motion, times: ArrayLike | None, turns: int = TURNS) -> Array:
-    """The times of a picture: as given; or the whole span of a motion that is not periodic; or whole periods of the polhode."""
+    """The times of a picture: as given; or the whole span of a motion that is not periodic or that turns with its orbit; or whole periods of the polhode."""
     if times is not None:
         return np.asarray(plain("times", times), dtype=float)
-    spanned = None if is_periodic(motion) else whole_span(motion)
+    spanned = None if is_periodic(motion) and not turns_with_orbit(motion) else whole_span(motion)
     return whole_turns(motion, turns) if spanned is None else spanned
