@@ -15,7 +15,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::str::FromStr;
 
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
 use crate::error::Error;
 use crate::input::body::Body;
@@ -63,6 +63,14 @@ pub struct OrbitalSample {
     pub attitude: UnitQuaternion<f64>,
     /// Angular velocity relative to the turning frame, in body components.
     pub angular_velocity: Vector3<f64>,
+}
+
+impl OrbitalSample {
+    /// Of a time without a motion.
+    pub const NAN: Self = Self {
+        attitude: Unit::new_unchecked(Quaternion::new(f64::NAN, f64::NAN, f64::NAN, f64::NAN)),
+        angular_velocity: Vector3::new(f64::NAN, f64::NAN, f64::NAN),
+    };
 }
 
 /// A sequence of three rotations about body axes, each about the axes as turned by the rotations before (intrinsic): "ZYX" is yaw, pitch, roll.

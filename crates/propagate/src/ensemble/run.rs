@@ -12,6 +12,7 @@ use crate::input::options::Convention;
 use crate::motion::batch::Batch;
 use crate::motion::plan::Plan;
 use crate::motion::solved::{Motion, Periods, length};
+use crate::orbital::{OrbitalFrame, OrbitalSample};
 use crate::outcome::Outcome;
 use crate::partials::{Derivatives, INERTIA_PARAMETERS};
 use crate::simd::halt::GOING;
@@ -136,6 +137,23 @@ impl<'a> MembersRun<'a> {
         self.rows_into(times, out, |batch, times, rows| batch.andoyer_into(times, rows))
     }
 
+    /// Attitudes and angular velocities against the orbital frame as of [`Motion::orbital`], ordered as by [`Ensemble::attitudes_into`].
+    ///
+    /// # Errors
+    /// As [`MembersRun::attitudes_into`], and those of [`OrbitalFrame::at`] of a member.
+    pub fn orbital_into(
+        &self,
+        times: &[f64],
+        frame: &OrbitalFrame,
+        out: &mut [OrbitalSample],
+    ) -> Result<Outcome, Error> {
+        let evaluate = |batch: &Batch<'_>, times: &[f64], rows: &mut [OrbitalSample]| {
+            rows.copy_from_slice(&batch.orbital(times, frame)?);
+            Ok(())
+        };
+        self.items_into(times, out, OrbitalSample::NAN, evaluate)
+    }
+
     /// N numbers for each time of each member.
     fn rows_into<const N: usize>(
         &self,
@@ -143,11 +161,22 @@ impl<'a> MembersRun<'a> {
         out: &mut [[f64; N]],
         evaluate: impl Fn(&Batch<'_>, &[f64], &mut [[f64; N]]) -> Result<(), Error> + Sync,
     ) -> Result<Outcome, Error> {
+        self.items_into(times, out, [f64::NAN; N], evaluate)
+    }
+
+    /// An item for each time of each member.
+    fn items_into<T: Copy + Send + Sync>(
+        &self,
+        times: &[f64],
+        out: &mut [T],
+        none: T,
+        evaluate: impl Fn(&Batch<'_>, &[f64], &mut [T]) -> Result<(), Error> + Sync,
+    ) -> Result<Outcome, Error> {
         let each = self.ensemble.times_of_each("out", times, out.len())?;
-        let fill = |motion: &Motion, index: usize, rows: &mut &mut [[f64; N]], part: Range<usize>| {
+        let fill = |motion: &Motion, index: usize, rows: &mut &mut [T], part: Range<usize>| {
             evaluate(&self.batch(motion), &of_member(times, index, each)[part.clone()], &mut rows[part])
         };
-        self.each_time(each, out.chunks_mut(each.max(1)), fill, |rows, part| rows[part].fill([f64::NAN; N]))
+        self.each_time(each, out.chunks_mut(each.max(1)), fill, |rows, part| rows[part].fill(none))
     }
 
     /// As [`Ensemble::samples_into`].

@@ -2,6 +2,7 @@
 
 use andoyer_propagate::disturbers::DisturbingBody;
 use andoyer_propagate::ensemble::OnError;
+use andoyer_propagate::orbital::OrbitalSample;
 use andoyer_propagate::{Error, Scene};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -12,7 +13,7 @@ use super::bodies::Bodies;
 use crate::array::MemberRows;
 use crate::error;
 use crate::foreign;
-use crate::orbital::{Asked, Orbital, Rows};
+use crate::orbital::{Asked, Orbital};
 use crate::scene::arguments::epoch as epoch_of;
 
 /// Attitudes of the members as quaternions or as angles.
@@ -188,30 +189,16 @@ impl Ensemble {
         of: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Orbital> {
         let asked = Asked::new(elements_of, frame, sequence, of)?;
-        asked.orbital(py, &self.times(times)?, |since_epoch, values, out, stop| {
-            let members = self.0.len();
-            let count = out.attitude.len() / members.max(1);
-            let rows = out.attitude.chunks_mut(count.max(1)).zip(out.angles.chunks_mut(count.max(1)));
-            let rows = rows.zip(out.rates.chunks_mut(count.max(1))).enumerate();
-            for (index, ((attitude, angles), rates)) in rows {
-                let own = if values.len() == count { values } else { &values[index * count..][..count] };
-                let samples = self.0.motion(index).and_then(|motion| {
-                    let batch = motion.batch().until(stop);
-                    let batch = if since_epoch { batch.since_epoch() } else { batch };
-                    batch.orbital(own, &asked.frame).map_err(|problem| Error::of_member(index, problem))
-                });
-                match samples {
-                    Ok(samples) => Rows { attitude, angles, rates }.fill(&asked, samples),
-                    Err(Error::Stopped) => return Err(Error::Stopped),
-                    Err(_) if self.0.asked_on_error() == OnError::Nan => {
-                        attitude.fill([f64::NAN; 4]);
-                        angles.fill([f64::NAN; 3]);
-                        rates.fill([f64::NAN; 3]);
-                    }
-                    Err(problem) => return Err(problem),
-                }
-            }
+        let mut said = None;
+        let orbital = asked.orbital(py, &self.times(times)?, |since_epoch, values, out, stop| {
+            let run = self.0.run().until(stop);
+            let run = if since_epoch { run.since_epoch() } else { run };
+            let mut samples = vec![OrbitalSample::NAN; out.attitude.len()];
+            said = run.orbital_into(values, &asked.frame, &mut samples)?.missed_tolerance();
+            out.fill(&asked, samples);
             Ok(())
-        })
+        })?;
+        error::warn_of_tolerance(py, said)?;
+        Ok(orbital)
     }
 }
