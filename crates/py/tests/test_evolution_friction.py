@@ -31,7 +31,10 @@ def test_friction_alone_is_the_relaxation(rates):
     found = np.arcsin(np.sqrt(evolution.at(times).excess / separatrix))
     assert np.allclose(found, relaxation.at(times).angle, rtol=1e-8, atol=0)
     assert np.allclose(evolution.at(times).momentum, evolution.at(0).momentum, rtol=1e-15, atol=0)
-    assert with_friction.drift().excess == pytest.approx(-2 * dissipation.power(scene) / (dissipation.moments.max() * (np.linalg.norm(evolution.at(0).momentum) / c) ** 2) * (-a / c if long_axis else 1), rel=1e-12)
+    assert with_friction.drift().excess == pytest.approx(
+        -2 * dissipation.power(scene) / (dissipation.moments.max() * (np.linalg.norm(evolution.at(0).momentum) / c) ** 2) * (-a / c if long_axis else 1),
+        rel=1e-12,
+    )
 
 
 def test_a_power_of_the_excess_gives_its_exponential():

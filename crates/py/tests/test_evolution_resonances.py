@@ -52,7 +52,7 @@ def test_the_passage_of_minus_two_one_is_that_of_the_prototype(seed):
         found = [one for one in evolution.plan.resonances if one[:2] == (-2, 1)]
         if found:
             break
-    h, m, time, change, capture = found[0]
+    _, _, time, change, capture = found[0]
     assert capture == (ratio >= 1)
     expected = jump / 0.985 / (1 if capture else np.sqrt(1 - ratio))
     assert change == pytest.approx(expected, rel=0.12)  # the table has two digits

@@ -16,7 +16,15 @@ BODY = [0.9, 1.1, 1.4]
 
 def orbit(seed=0):
     rng = np.random.default_rng(seed)
-    return andoyer.Orbit(1.08e-3, rng.uniform(0, 0.2), semi_major_axis=7000.0 / (1 - 0.2), inclination=rng.uniform(0.2, 2.9), node=rng.uniform(0, 6), argument_of_pericentre=rng.uniform(0, 6), time_of_pericentre=rng.uniform(0, 3000))
+    return andoyer.Orbit(
+        1.08e-3,
+        rng.uniform(0, 0.2),
+        semi_major_axis=7000.0 / (1 - 0.2),
+        inclination=rng.uniform(0.2, 2.9),
+        node=rng.uniform(0, 6),
+        argument_of_pericentre=rng.uniform(0, 6),
+        time_of_pericentre=rng.uniform(0, 3000),
+    )
 
 
 def field_at(path, t):
@@ -114,9 +122,13 @@ def test_a_table_of_the_field_is_the_field():
 
 def test_eddy_currents_of_a_sphere_decay_with_their_known_time():
     # A uniform field across the rotation: ω(t) = ω(0) exp(−K B² t/I) (Ortiz Gómez and Walker 2015, for a sphere).
-    motion = andoyer.Scene(andoyer.Body([2, 2, 2]), [0, 0, 0, 1], [0, 0, 1], torques=andoyer.Torque.eddy(5e2, [0, 4e-3, 0]), span=(0, 300), tolerance=1e-9).solve()
+    motion = andoyer.Scene(
+        andoyer.Body([2, 2, 2]), [0, 0, 0, 1], [0, 0, 1], torques=andoyer.Torque.eddy(5e2, [0, 4e-3, 0]), span=(0, 300), tolerance=1e-9
+    ).solve()
     assert motion.angular_velocity(300.0)[2] == pytest.approx(np.exp(-5e2 * 16e-6 * 300 / 2), rel=1e-9)
-    along = andoyer.Scene(andoyer.Body([2, 2, 2]), [0, 0, 0, 1], [0, 1, 0], torques=andoyer.Torque.eddy(5e2, [0, 4e-3, 0]), span=(0, 300), tolerance=1e-9).solve()
+    along = andoyer.Scene(
+        andoyer.Body([2, 2, 2]), [0, 0, 0, 1], [0, 1, 0], torques=andoyer.Torque.eddy(5e2, [0, 4e-3, 0]), span=(0, 300), tolerance=1e-9
+    ).solve()
     assert along.angular_velocity(300.0)[1] == pytest.approx(1.0, abs=1e-12)
 
 

@@ -63,7 +63,7 @@ mod tests {
     fn the_relaxing_torque_is_across_the_momentum_and_takes_energy() {
         let inertia = [[1.0, 0.1, 0.0], [0.1, 1.5, 0.2], [0.0, 0.2, 2.0]];
         let Torque::Polynomial(torque) = relaxing(0.3, inertia).expect("polynomials") else { unreachable!() };
-        let w = Vector3::new(0.3, -0.7, 1.1);
+        let w = Vector3::<f64>::new(0.3, -0.7, 1.1);
         let value = torque.terms().each_ref().map(|terms| {
             let term = |(c, powers): &(f64, Vec<u32>)| {
                 c * (0..3).map(|axis| w[axis].powi(powers[axis] as i32)).product::<f64>()

@@ -9,3 +9,4 @@ pub(crate) mod principal_axes;
 pub(crate) mod scene;
 pub(crate) mod state;
 pub(crate) mod torque;
+mod torque_parameters;

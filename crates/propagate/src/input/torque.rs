@@ -384,6 +384,11 @@ impl PolynomialTorque {
         self.truncation
     }
 
+    /// Other terms of the same sources.
+    pub(super) fn with_terms(&self, terms: [Vec<(f64, Vec<u32>)>; 3]) -> Torque {
+        Torque::Polynomial(Arc::new(Self { terms, ..self.clone() }))
+    }
+
     pub(crate) fn terms(&self) -> &[Vec<(f64, Vec<u32>)>; 3] {
         &self.terms
     }

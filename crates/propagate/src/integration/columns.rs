@@ -6,7 +6,9 @@ use super::expansion::{Equations, Workspace};
 use super::linear::Linear;
 use super::path_series::PathSeries;
 use super::series::{ROWS, Series, StateLanes, add_product, add_scaled};
+use super::torques::{PolynomialSeries, Torques};
 use crate::input::scene::Scene;
+use crate::input::torque::Torque;
 use crate::numerics::scaling::scaled;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::simd::instruction_set::InstructionSet;
@@ -23,7 +25,7 @@ type ColumnLanes = StateLanes<LANES>;
 type Vectors = [ColumnLanes; 3];
 
 /// A parameter, in the axes of the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ForcedColumn {
     /// A rotation of the initial attitude about this axis.
     Attitude(Vector3<f64>),
@@ -35,6 +37,8 @@ pub(crate) enum ForcedColumn {
     Element(usize, usize),
     /// The attraction of a disturbing body.
     Attraction(usize),
+    /// The factor of a torque.
+    Torque(Torque),
 }
 
 /// Eight columns.
@@ -45,12 +49,15 @@ pub(super) struct ColumnBlock<'a> {
     angle: [Vectors; ROWS],
     rate: [Vectors; ROWS],
     force: [Vectors; ROWS],
+    /// The torques of columns, by lane, with room for their series.
+    torques: Vec<(usize, Torques, Vec<PolynomialSeries>)>,
 }
 
 impl<'a> ColumnBlock<'a> {
     pub(super) fn new(columns: &'a [ForcedColumn], scene: &'a Scene, exponent: i32) -> Self {
         let nothing = [[[0.0; LANES]; 3]; ROWS];
-        let mut block = Self { columns, scene, exponent, angle: nothing, rate: nothing, force: nothing };
+        let mut block =
+            Self { columns, scene, exponent, angle: nothing, rate: nothing, force: nothing, torques: Vec::new() };
         for (lane, column) in columns.iter().enumerate() {
             for axis in 0..3 {
                 match column {
@@ -60,6 +67,14 @@ impl<'a> ColumnBlock<'a> {
                     }
                     _ => {}
                 }
+            }
+            if let ForcedColumn::Torque(torque) = column {
+                let found = Torques::of(std::slice::from_ref(torque), (scene, exponent), false);
+                block.torques.extend(
+                    found
+                        .map(|torques| (lane, torques.room(1), torques))
+                        .map(|(lane, room, torques)| (lane, torques, room)),
+                );
             }
         }
         block
@@ -78,7 +93,7 @@ impl<'a> ColumnBlock<'a> {
         let mut elements: Option<(usize, [Series; 6])> = None;
         for (lane, column) in self.columns.iter().enumerate() {
             match column {
-                ForcedColumn::Attitude(_) | ForcedColumn::AngularVelocity(_) => {}
+                ForcedColumn::Attitude(_) | ForcedColumn::AngularVelocity(_) | ForcedColumn::Torque(_) => {}
                 ForcedColumn::Inertia(change) => {
                     for k in 0..order {
                         let [x, y, z, _] = workspace.rates[k + 1];
@@ -111,6 +126,30 @@ impl<'a> ColumnBlock<'a> {
                             self.force[k][axis][lane] = equations.factors[axis] * product / orbit.strength();
                         }
                     }
+                }
+            }
+        }
+    }
+
+    /// The forces of the factors of torques.
+    #[inline(always)]
+    pub(super) fn set_torques<S: InstructionSet>(
+        &mut self,
+        simd: S,
+        workspace: &Workspace<4>,
+        time: ((f64, f64), bool),
+        order: usize,
+    ) {
+        for (lane, torques, series) in &mut self.torques {
+            torques.begin(simd, time, order, series);
+            let rate = |j: usize| {
+                let [x, y, z, _] = workspace.rates[j];
+                Vector3::new(x, y, z)
+            };
+            for k in 0..order {
+                let found = torques.coefficient((k, 0), rate, |j| workspace.matrix(j), series);
+                for axis in 0..3 {
+                    self.force[k][axis][*lane] = found[axis];
                 }
             }
         }

@@ -93,13 +93,13 @@ impl FieldSeries {
     fn moment(&self, elapsed: (f64, f64), order: usize) -> [Scalars; 3] {
         let [x, y, z] = self.axis;
         let (mut sine, mut cosine) = self.phase.angle(elapsed).sin_cos();
-        let mut moment: [Scalars; 3] = [[0.0; ROWS]; 3];
-        moment[2][0] = z;
-        for k in 0..order {
-            (moment[0][k], moment[1][k]) = (cosine * x - sine * y, sine * x + cosine * y);
+        let [mut first, mut second, mut third]: [Scalars; 3] = [[0.0; ROWS]; 3];
+        third[0] = z;
+        for (k, (one, other)) in first.iter_mut().zip(&mut second).enumerate().take(order) {
+            (*one, *other) = (cosine * x - sine * y, sine * x + cosine * y);
             let share = self.rate / (k + 1) as f64;
             (cosine, sine) = (-share * sine, share * cosine);
         }
-        moment
+        [first, second, third]
     }
 }

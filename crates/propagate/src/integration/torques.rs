@@ -72,13 +72,18 @@ pub(super) struct PolynomialSeries {
 impl Torques {
     /// `None` for a scene without such torques. `slopes`: with the derivatives of the polynomials.
     pub(super) fn new(scene: &Scene, exponent: i32, slopes: bool) -> Option<Self> {
-        if scene.acting_torques().is_empty() {
+        Self::of(&scene.acting_torques(), (scene, exponent), slopes)
+    }
+
+    /// The same of some torques.
+    pub(super) fn of(torques: &[Torque], (scene, exponent): (&Scene, i32), slopes: bool) -> Option<Self> {
+        if torques.is_empty() {
             return None;
         }
         let inverse = Matrix3::from_diagonal(&Vector3::from(scene.body().moments()).map(f64::recip));
         let (mut constant, mut linear, mut polynomials) = (Vector3::zeros(), Matrix3::zeros(), Vec::new());
         let (mut damping, mut brakes) = (Matrix3::zeros(), false);
-        for torque in scene.acting_torques().iter() {
+        for torque in torques {
             match torque {
                 Torque::Constant(given) => constant += Vector3::from(*given),
                 Torque::Damping(rows) => damping += Matrix3::from_fn(|i, k| rows[i][k]),

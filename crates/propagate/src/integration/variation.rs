@@ -148,6 +148,7 @@ impl Task for Variation<'_> {
             let mut length = whole;
             for block in &mut blocks {
                 block.set_forces(simd.four(), (equations, &workspace, &linear), (start, backward), order);
+                block.set_torques(simd.four(), &workspace, (start, backward), order);
                 block.expand(simd, &linear, order);
                 length = length.min(block.longest(whole, order));
             }

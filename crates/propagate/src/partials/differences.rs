@@ -110,6 +110,8 @@ fn step(scene: &Scene, parameter: &ForcedColumn, times: &[f64]) -> f64 {
             }
         }),
         ForcedColumn::Attraction(body) => orbit(*body).map_or(STEP, |orbit| LARGEST * orbit.strength()),
+        // A motion under such a torque is integrated.
+        ForcedColumn::Torque(_) => STEP,
     }
 }
 
@@ -123,6 +125,7 @@ fn changed(scene: &Scene, parameter: &ForcedColumn, step: f64) -> Scene {
         ForcedColumn::Element(body, element) => {
             return with_orbit(scene, *body, |orbit| orbit.displaced(*element, step));
         }
+        ForcedColumn::Torque(_) => {}
         ForcedColumn::Attraction(body) => {
             return with_orbit(scene, *body, |orbit| orbit.attracting(orbit.strength() + step));
         }

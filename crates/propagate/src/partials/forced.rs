@@ -34,7 +34,7 @@ impl Batch<'_> {
         outputs: PartialsRows<'_>,
     ) -> Result<(), Error> {
         let by_elements = self.motion().scene().body().has_tensor();
-        self.by_columns(&columns(self.motion(), parameters, by_elements), times, outputs)
+        self.by_columns(&columns(self.motion(), parameters, by_elements)?, times, outputs)
     }
 
     /// The derivatives of a motion under torques as matrices, with respect to the state and to the moments, N = 9, or to the elements of the tensor, N = 12.
@@ -45,7 +45,7 @@ impl Batch<'_> {
         rates: &mut [Derivatives<N>],
     ) -> Result<(), Error> {
         let parameters = [Parameter::Attitude, Parameter::AngularVelocity, Parameter::Moments];
-        let columns = columns(self.motion(), &parameters, N != PARAMETERS);
+        let columns = columns(self.motion(), &parameters, N != PARAMETERS)?;
         let outputs = [attitudes, rates].map(|matrices| matrices.as_flattened_mut().as_flattened_mut());
         self.by_columns(&columns, times, outputs)
     }
@@ -87,7 +87,7 @@ impl Batch<'_> {
 }
 
 /// The columns of some parameters in the axes of the scene. `by_elements`: those of the body are the elements of its tensor about the user's axes.
-fn columns(motion: &Motion, parameters: &[Parameter], by_elements: bool) -> Vec<ForcedColumn> {
+fn columns(motion: &Motion, parameters: &[Parameter], by_elements: bool) -> Result<Vec<ForcedColumn>, Error> {
     let axes =
         motion.given.as_ref().map_or_else(Matrix3::identity, |given| given.turn.to_rotation_matrix().into_inner());
     let axis = |k: usize| axes.row(k).transpose();
@@ -109,9 +109,14 @@ fn columns(motion: &Motion, parameters: &[Parameter], by_elements: bool) -> Vec<
             }
             Parameter::Orbit(body) => columns.extend((0..6).map(|element| ForcedColumn::Element(body, element))),
             Parameter::Attraction(body) => columns.push(ForcedColumn::Attraction(body)),
+            Parameter::Torque(index) => {
+                let own = motion.scene().asked_torques()[index].parameters()?;
+                let axes = motion.scene().body().precise_axes();
+                columns.extend(own.into_iter().map(|(_, torque)| ForcedColumn::Torque(torque.turned(&axes))));
+            }
         }
     }
-    columns
+    Ok(columns)
 }
 
 /// Turns the vectors of all columns from the scene's axes to the user's.

@@ -25,6 +25,9 @@ pub enum Parameter {
     Orbit(usize),
     /// The attraction of a disturbing body on an orbit, by its index.
     Attraction(usize),
+    /// The parameters of a torque of the scene, by its index: the components of a constant torque, of the momentum of rotors or of a dipole, the elements of a damping matrix, the factor and up to 60 coefficients of another
+    /// polynomial.
+    Torque(usize),
 }
 
 impl Parameter {
@@ -46,12 +49,14 @@ impl Parameter {
             Self::Moments => numbered("moment"),
             Self::Orbit(_) => ELEMENTS.map(|name| format!("{name}{index}")).to_vec(),
             Self::Attraction(_) => vec![format!("attraction{index}")],
+            // Those of a torque are its own.
+            Self::Torque(_) => Vec::new(),
         }
     }
 }
 
 impl Motion {
-    /// A parameter by its name: "attitude", "angular_velocity", "moments", "orbit" or "attraction". The last two take the index of a disturbing body, which may be left
+    /// A parameter by its name: "attitude", "angular_velocity", "moments", "orbit", "attraction" or "torque". The last three take the index of a disturbing body or of a torque, which may be left
     /// out where there is one.
     ///
     /// # Errors
@@ -66,6 +71,11 @@ impl Motion {
             ("attitude", None) => Ok(Parameter::Attitude),
             ("angular_velocity", None) => Ok(Parameter::AngularVelocity),
             ("moments", None) => Ok(Parameter::Moments),
+            ("torque", _) if self.scene().asked_torques().is_empty() => refused("absent in a scene without torques"),
+            ("torque", None) if self.scene().asked_torques().len() > 1 => {
+                refused("a pair of name and index, such as (\"torque\", 0), with several torques")
+            }
+            ("torque", index) => Ok(Parameter::Torque(index.unwrap_or(0))),
             ("orbit" | "attraction", _) if bodies == 0 => refused("absent in a scene without a disturbing body"),
             ("orbit" | "attraction", None) if bodies > 1 => {
                 refused("a pair of name and index, such as (\"orbit\", 0), with several disturbing bodies")
@@ -73,7 +83,7 @@ impl Motion {
             ("orbit", index) => Ok(Parameter::Orbit(index.unwrap_or(0))),
             ("attraction", index) => Ok(Parameter::Attraction(index.unwrap_or(0))),
             ("attitude" | "angular_velocity" | "moments", Some(_)) => refused("without an index"),
-            _ => refused("\"attitude\", \"angular_velocity\", \"moments\", \"orbit\" or \"attraction\""),
+            _ => refused("\"attitude\", \"angular_velocity\", \"moments\", \"orbit\", \"attraction\" or \"torque\""),
         }
     }
 
@@ -86,6 +96,10 @@ impl Motion {
         let bodies = self.scene.asked_disturbing();
         let mut names = Vec::new();
         for parameter in parameters {
+            if let Parameter::Torque(index) = *parameter {
+                names.extend(self.torque_names(index)?);
+                continue;
+            }
             let mut suffix = String::new();
             if let Parameter::Orbit(index) | Parameter::Attraction(index) = *parameter {
                 let bound = match bodies.get(index) {
@@ -105,6 +119,20 @@ impl Motion {
             names.extend(parameter.names(self.scene().body().has_tensor(), &suffix));
         }
         Ok(names)
+    }
+
+    /// The names of the parameters of a torque, with its index if there are several.
+    fn torque_names(&self, index: usize) -> Result<Vec<String>, Error> {
+        let torques = self.scene().asked_torques();
+        let Some(torque) = torques.get(index) else {
+            let bound = match torques.len() {
+                0 => "absent in a scene without torques".to_owned(),
+                count => format!("that of a torque, with an index from 0 to {}", count - 1),
+            };
+            return Err(Error::Parameter { value: format!("(\"torque\", {index})"), bound });
+        };
+        let suffix = if torques.len() > 1 { format!("[{index}]") } else { String::new() };
+        Ok(torque.parameters()?.into_iter().map(|(name, _)| name + &suffix).collect())
     }
 }
 
@@ -180,7 +208,7 @@ fn select<const N: usize>(parameters: &[Parameter], all: &[Vec<Derivatives<N>>; 
             Parameter::AngularVelocity => (3..6).map(Some).collect(),
             Parameter::Moments => (6..N).map(Some).collect(),
             Parameter::Orbit(_) => vec![None; ELEMENTS.len()],
-            Parameter::Attraction(_) => vec![None],
+            Parameter::Attraction(_) | Parameter::Torque(_) => vec![None],
         })
         .collect();
     for (all, output) in all.iter().zip(outputs) {
