@@ -76,6 +76,11 @@ pub fn find(name: &str) -> Option<(i32, &'static str)> {
     place.or((name == "ICRF").then_some((J2000, "ICRF")))
 }
 
+/// Whether a code is that of an inertial frame.
+pub fn is_inertial(code: i32) -> bool {
+    (1..=INERTIAL.len() as i32).contains(&code)
+}
+
 /// Whether SPICE has a frame of this name, inertial or rotating, without any kernel.
 pub fn is_taken(name: &str) -> bool {
     find(name).is_some() || ROTATING.iter().any(|start| name.starts_with(start))

@@ -1,0 +1,217 @@
+//! A segment of a file: what its summary says, and its words.
+
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+use crate::frames;
+use crate::read::chebyshev::Pieces;
+use crate::read::daf::{DafFile, Summary};
+use crate::read::error::ReadError;
+use crate::read::states::States;
+
+/// Words that are read at least, 4 kB.
+const AHEAD: usize = 512;
+
+/// What a file says of a segment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    /// The file.
+    pub file: String,
+    /// Its number in the file from 1.
+    pub number: usize,
+    /// Its name.
+    pub name: String,
+    /// The body, or the class ID of the body's frame.
+    pub body: i32,
+    /// The body that positions are measured from; `None` for orientations.
+    pub center: Option<i32>,
+    /// The code of the inertial frame ([`crate::frames::find`]).
+    pub frame: i32,
+    /// The type of the data.
+    pub data_type: i32,
+    /// The time that it covers \[s of TDB past J2000\].
+    pub span: (f64, f64),
+}
+
+/// A segment with the way to its words.
+pub(super) struct Stored {
+    pub(super) segment: Segment,
+    /// The number of the file.
+    pub(super) file: usize,
+    /// The matrix from the segment's frame to J2000, unless it is the identity.
+    pub(super) turn: Option<[[f64; 3]; 3]>,
+    addresses: [i32; 2],
+    layout: OnceLock<Layout>,
+    kept: [Mutex<Block>; 2],
+}
+
+enum Layout {
+    Pieces(Pieces),
+    States(States),
+}
+
+/// Words that were read last, from a place in the segment on.
+#[derive(Default)]
+struct Block {
+    first: usize,
+    words: Vec<f64>,
+}
+
+impl Stored {
+    /// A segment from its summary. An ephemeris has the centre among its integers, an orientation has not.
+    pub(super) fn new(place: usize, file: &DafFile, number: usize, summary: Summary) -> Result<Self, ReadError> {
+        let Summary { name, ends: [start, end], integers } = summary;
+        let (center, rest) =
+            if integers.len() == 6 { (Some(integers[1]), &integers[2..]) } else { (None, &integers[1..]) };
+        if !(start <= end && start.is_finite() && end.is_finite()) {
+            return Err(file.damaged(
+                number,
+                "the span",
+                format!("{start} to {end}"),
+                "finite, from the earlier time on",
+            ));
+        }
+        let frame = rest[0];
+        let turn = frames::from_j2000(frame);
+        let identity = turn == frames::from_j2000(1);
+        Ok(Self {
+            segment: Segment {
+                file: file.name.clone(),
+                number,
+                name,
+                body: integers[0],
+                center,
+                frame,
+                data_type: rest[1],
+                span: (start, end),
+            },
+            file: place,
+            turn: (!identity).then(|| std::array::from_fn(|row| std::array::from_fn(|column| turn[column][row]))),
+            addresses: [rest[2], rest[3]],
+            layout: OnceLock::new(),
+            kept: <[Mutex<Block>; 2]>::default(),
+        })
+    }
+
+    pub(super) fn covers(&self, et: f64) -> bool {
+        self.segment.span.0 <= et && et <= self.segment.span.1
+    }
+
+    /// Three values and their rates, in the segment's frame.
+    pub(super) fn at(&self, file: &DafFile, et: f64) -> Result<[[f64; 3]; 2], ReadError> {
+        let words = self.words(file)?;
+        let layout = match self.layout.get() {
+            Some(layout) => layout,
+            None => {
+                let layout = self.layout(&words)?;
+                self.layout.get_or_init(|| layout)
+            }
+        };
+        let values = match layout {
+            Layout::Pieces(pieces) => pieces.at(&words, et),
+            Layout::States(states) => states.at(&words, et),
+        }?;
+        if !values.as_flattened().iter().all(|value| value.is_finite()) {
+            return Err(words.damaged("the values", format!("{values:?} at {et}"), "finite"));
+        }
+        Ok(values)
+    }
+
+    fn layout(&self, words: &Words<'_>) -> Result<Layout, ReadError> {
+        let Segment { frame, data_type, center, .. } = self.segment;
+        if !frames::is_inertial(frame) {
+            return Err(self.unsupported("frame", frame, "an inertial frame of SPICE (1 to 21)"));
+        }
+        match (data_type, center) {
+            (2, _) => Pieces::of(words, 3).map(Layout::Pieces),
+            (3, Some(_)) => Pieces::of(words, 6).map(Layout::Pieces),
+            (9 | 13, Some(_)) => States::of(words, data_type == 13).map(Layout::States),
+            (_, Some(_)) => Err(self.unsupported("data type", data_type, "2, 3, 9 or 13")),
+            (_, None) => Err(self.unsupported("data type", data_type, "2")),
+        }
+    }
+
+    fn unsupported(&self, item: &'static str, code: i32, supported: &'static str) -> ReadError {
+        let Segment { file, number, .. } = &self.segment;
+        ReadError::Unsupported { file: file.clone(), segment: *number, item, code, supported }
+    }
+
+    fn words<'a>(&'a self, file: &'a DafFile) -> Result<Words<'a>, ReadError> {
+        let number = self.segment.number;
+        let [first, last] = self.addresses;
+        match (usize::try_from(first), usize::try_from(last)) {
+            (Ok(first), Ok(last)) if 1 <= first && first <= last && last as u64 <= file.length() => {
+                Ok(Words { file, number, first, count: last + 1 - first, kept: &self.kept })
+            }
+            _ => {
+                let value = format!("{first} to {last}");
+                Err(file.damaged(number, "the addresses", value, format!("increasing, 1 to {}", file.length())))
+            }
+        }
+    }
+}
+
+/// The words of a segment, by their places from 0.
+pub(super) struct Words<'a> {
+    file: &'a DafFile,
+    number: usize,
+    first: usize,
+    count: usize,
+    kept: &'a [Mutex<Block>; 2],
+}
+
+impl Words<'_> {
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Words from a place on. The place is inside the segment.
+    pub(super) fn read(&self, place: usize, count: usize) -> Result<Vec<f64>, ReadError> {
+        self.file.words(self.first + place, count)
+    }
+
+    /// N words from a place on.
+    pub(super) fn array<const N: usize>(&self, place: usize) -> Result<[f64; N], ReadError> {
+        let words = self.read(place, N)?;
+        Ok(std::array::from_fn(|word| words[word]))
+    }
+
+    /// What a function makes of words, which are read if they are not the kept ones.
+    pub(super) fn with<T>(&self, place: usize, count: usize, make: impl FnOnce(&[f64]) -> T) -> Result<T, ReadError> {
+        self.with_block(0, place, count, make)
+    }
+
+    /// The same with other kept words, for the times of states.
+    pub(super) fn with_second<T>(
+        &self,
+        place: usize,
+        count: usize,
+        make: impl FnOnce(&[f64]) -> T,
+    ) -> Result<T, ReadError> {
+        self.with_block(1, place, count, make)
+    }
+
+    fn with_block<T>(
+        &self,
+        which: usize,
+        place: usize,
+        count: usize,
+        make: impl FnOnce(&[f64]) -> T,
+    ) -> Result<T, ReadError> {
+        let mut block = self.kept[which].lock().unwrap_or_else(PoisonError::into_inner);
+        if place < block.first || place + count > block.first + block.words.len() {
+            let words = self.read(place, count.max(AHEAD).min(self.count - place))?;
+            *block = Block { first: place, words };
+        }
+        let start = place - block.first;
+        Ok(make(&block.words[start..start + count]))
+    }
+
+    pub(super) fn damaged(&self, item: &'static str, value: impl ToString, allowed: impl Into<String>) -> ReadError {
+        self.file.damaged(self.number, item, value, allowed)
+    }
+}
+
+/// The product of a matrix and a vector.
+pub(super) fn turned(matrix: &[[f64; 3]; 3], vector: [f64; 3]) -> [f64; 3] {
+    matrix.map(|row| row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2])
+}
