@@ -46,10 +46,20 @@ impl Pieces {
         Ok(Self { start, length, record, count, components })
     }
 
+    /// The number of the record for a time.
+    fn number(&self, et: f64) -> usize {
+        (((et - self.start) / self.length) as usize).min(self.count - 1)
+    }
+
+    /// Reads the records for a span.
+    pub(super) fn keep(&self, words: &Words<'_>, span: [f64; 2]) -> Result<(), ReadError> {
+        let [first, last] = span.map(|et| self.number(et));
+        words.with(first * self.record, (last + 1 - first) * self.record, |_| ())
+    }
+
     /// Three values and their rates at a time.
     pub(super) fn at(&self, words: &Words<'_>, et: f64) -> Result<[[f64; 3]; 2], ReadError> {
-        let number = (((et - self.start) / self.length) as usize).min(self.count - 1);
-        words.with(number * self.record, self.record, |record| {
+        words.with(self.number(et) * self.record, self.record, |record| {
             let (middle, radius) = (record[0], record[1]);
             let argument = (et - middle) / radius;
             if !(argument.abs() <= LARGEST_ARGUMENT && radius > 0.0) {

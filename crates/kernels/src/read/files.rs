@@ -61,6 +61,15 @@ impl Files {
         stored.at(&self.files[stored.file], et)
     }
 
+    /// Reads the data of a body for a span and keeps them.
+    pub(super) fn keep(&self, body: i32, (start, end): (f64, f64)) -> Result<(), ReadError> {
+        self.of(body).try_for_each(|stored| {
+            let (first, last) = stored.segment.span;
+            let span = [start.max(first), end.min(last)];
+            if span[0] <= span[1] { stored.keep(&self.files[stored.file], span) } else { Ok(()) }
+        })
+    }
+
     /// The intervals that are covered, in order; those that touch are one.
     pub(super) fn coverage(&self, body: i32) -> Vec<(f64, f64)> {
         let mut spans: Vec<(f64, f64)> = self.of(body).map(|stored| stored.segment.span).collect();

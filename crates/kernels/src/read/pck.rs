@@ -40,6 +40,14 @@ impl Orientations {
         self.0.coverage(body)
     }
 
+    /// Reads the data of a body for a span \[s of TDB past J2000\] at once and keeps them, for many times in any order. The first time outside the span drops them.
+    ///
+    /// # Errors
+    /// As for [`Self::angles`], but for times that are not covered.
+    pub fn keep(&self, body: i32, span: (f64, f64)) -> Result<(), ReadError> {
+        self.0.keep(body, span)
+    }
+
     /// The angles φ, δ, W \[rad\] and their rates \[rad/s\]. The matrix \[W\]₃ \[δ\]₁ \[φ\]₃ goes from the inertial frame of the segment to the body's axes.
     ///
     /// # Errors
@@ -58,13 +66,14 @@ impl Orientations {
     pub fn attitude(&self, body: i32, et: f64) -> Result<([f64; 4], [f64; 3]), ReadError> {
         let stored = self.find(body, et)?;
         let [[phi, delta, turn], [phi_rate, delta_rate, turn_rate]] = self.0.at(stored, et)?;
-        let (sine, cosine) = (0.5 * delta).sin_cos();
-        let (half_sum, half_difference) = (0.5 * (phi + turn), 0.5 * (phi - turn));
+        // No sum of φ and W, which would round W a second time: it grows with the time.
+        let [(sin_phi, cos_phi), (sine, cosine), (sin_turn, cos_turn)] =
+            [phi, delta, turn].map(|angle| (0.5 * angle).sin_cos());
         let attitude = [
-            sine * half_difference.cos(),
-            sine * half_difference.sin(),
-            cosine * half_sum.sin(),
-            cosine * half_sum.cos(),
+            sine * (cos_phi * cos_turn + sin_phi * sin_turn),
+            sine * (sin_phi * cos_turn - cos_phi * sin_turn),
+            cosine * (sin_phi * cos_turn + cos_phi * sin_turn),
+            cosine * (cos_phi * cos_turn - sin_phi * sin_turn),
         ];
         let ((node_y, node_x), (tilt, axis)) = (phi.sin_cos(), delta.sin_cos());
         let rate = [

@@ -99,14 +99,7 @@ impl Stored {
     /// Three values and their rates, in the segment's frame.
     pub(super) fn at(&self, file: &DafFile, et: f64) -> Result<[[f64; 3]; 2], ReadError> {
         let words = self.words(file)?;
-        let layout = match self.layout.get() {
-            Some(layout) => layout,
-            None => {
-                let layout = self.layout(&words)?;
-                self.layout.get_or_init(|| layout)
-            }
-        };
-        let values = match layout {
+        let values = match self.layout(&words)? {
             Layout::Pieces(pieces) => pieces.at(&words, et),
             Layout::States(states) => states.at(&words, et),
         }?;
@@ -116,7 +109,27 @@ impl Stored {
         Ok(values)
     }
 
-    fn layout(&self, words: &Words<'_>) -> Result<Layout, ReadError> {
+    /// Reads the words for a span inside that of the segment.
+    pub(super) fn keep(&self, file: &DafFile, span: [f64; 2]) -> Result<(), ReadError> {
+        let words = self.words(file)?;
+        match self.layout(&words)? {
+            Layout::Pieces(pieces) => pieces.keep(&words, span),
+            Layout::States(states) => states.keep(&words, span),
+        }
+    }
+
+    /// The layout, which is read once.
+    fn layout(&self, words: &Words<'_>) -> Result<&Layout, ReadError> {
+        match self.layout.get() {
+            Some(layout) => Ok(layout),
+            None => {
+                let layout = self.read_layout(words)?;
+                Ok(self.layout.get_or_init(|| layout))
+            }
+        }
+    }
+
+    fn read_layout(&self, words: &Words<'_>) -> Result<Layout, ReadError> {
         let Segment { frame, data_type, center, .. } = self.segment;
         if !frames::is_inertial(frame) {
             return Err(self.unsupported("frame", frame, "an inertial frame of SPICE (1 to 21)"));

@@ -49,6 +49,14 @@ impl Ephemeris {
         self.0.coverage(target)
     }
 
+    /// Reads the data of a body for a span \[s of TDB past J2000\] at once and keeps them, for many times in any order. The first time outside the span drops them.
+    ///
+    /// # Errors
+    /// As for [`Self::state`], but for times that are not covered.
+    pub fn keep(&self, body: i32, span: (f64, f64)) -> Result<(), ReadError> {
+        self.0.keep(body, span)
+    }
+
     /// Position \[km\] and velocity \[km/s\] of a body seen from another one, without light time, in J2000.
     ///
     /// `et`: seconds of TDB past J2000. The chains of centres of both bodies are followed to the first common body.

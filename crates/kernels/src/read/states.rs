@@ -45,6 +45,15 @@ impl States {
         Ok(Self { count, window, hermite, directory })
     }
 
+    /// Reads all times, and the states for a span with half a window on either side.
+    pub(super) fn keep(&self, words: &Words<'_>, [start, end]: [f64; 2]) -> Result<(), ReadError> {
+        let [first, last] = words.with_second(self.count * STATE, self.count, |times| {
+            let [first, last] = [start, end].map(|et| times.partition_point(|&time| time < et));
+            [first.saturating_sub(WIDEST), (last + WIDEST).min(self.count)]
+        })?;
+        words.with(first * STATE, last.saturating_sub(first) * STATE, |_| ())
+    }
+
     /// Position and velocity at a time.
     pub(super) fn at(&self, words: &Words<'_>, et: f64) -> Result<[[f64; 3]; 2], ReadError> {
         let group = self.directory.partition_point(|&time| time < et) * DIRECTORY;
