@@ -98,7 +98,7 @@ pub fn has_constants(code: i32) -> bool {
 /// assert!((from_j2000(17)[1][2] - (84381.448_f64 / 3600.0).to_radians().sin()).abs() < 1e-15);
 /// ```
 pub fn from_j2000(code: i32) -> [[f64; 3]; 3] {
-    let place = usize::try_from(code - 1).unwrap_or_default();
+    let place = usize::try_from(code.saturating_sub(1)).unwrap_or_default();
     let Some(&Inertial(_, base, rotations)) = INERTIAL.get(place).filter(|_| place > 0) else {
         return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     };

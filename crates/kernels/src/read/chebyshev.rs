@@ -4,7 +4,7 @@
 //! of an interval, the words of a record, the number of records.
 
 use crate::read::error::ReadError;
-use crate::read::segment::Words;
+use crate::read::words::Words;
 
 /// The words of a record before the coefficients, and of the segment after the records.
 const HEAD: usize = 2;

@@ -1,5 +1,6 @@
 //! Double precision array files of both byte orders: file record, summaries, words.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
@@ -84,17 +85,17 @@ impl DafFile {
             })
     }
 
-    /// The chain of summaries from a record on. It has at most as many records as the file.
+    /// The chain of summaries from a record on, each record once.
     fn summaries(&self, first: i32, integers: u32) -> Result<Vec<Summary>, ReadError> {
         let mut summaries = Vec::new();
-        let (mut next, mut left) = (f64::from(first), self.bytes / RECORD as u64);
+        let (mut next, mut visited) = (f64::from(first), BTreeSet::new());
+        let records = self.bytes / RECORD as u64;
         while next != 0.0 {
-            let records = self.bytes / RECORD as u64;
-            if !(next >= 2.0 && next < records as f64 && next.fract() == 0.0) || left == 0 {
+            let inside = next >= 2.0 && next < records as f64 && next.fract() == 0.0;
+            if !inside || !visited.insert(next as u64) {
                 let allowed = format!("2 to {}, each once", records.saturating_sub(1));
                 return Err(self.damaged(0, "the number of a summary record", next, allowed));
             }
-            left -= 1;
             let both = self.bytes((next as u64 - 1) * RECORD as u64, 2 * RECORD)?;
             let (record, names) = both.split_at(RECORD);
             let control: Vec<f64> = record[..CONTROL * WORD].chunks(WORD).map(|word| self.double(word)).collect();

@@ -11,6 +11,7 @@ mod pck;
 mod segment;
 mod spk;
 mod states;
+mod words;
 
 pub use daf::Source;
 pub use error::{Gap, ReadError};

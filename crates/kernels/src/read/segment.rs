@@ -1,15 +1,13 @@
-//! A segment of a file: what its summary says, and its words.
+//! A segment of a file: what its summary says, and its values.
 
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::OnceLock;
 
 use crate::frames;
 use crate::read::chebyshev::Pieces;
 use crate::read::daf::{DafFile, Summary};
 use crate::read::error::ReadError;
 use crate::read::states::States;
-
-/// Words that are read at least, 4 kB.
-const AHEAD: usize = 512;
+use crate::read::words::{Kept, Words};
 
 /// What a file says of a segment.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,19 +39,12 @@ pub(super) struct Stored {
     pub(super) turn: Option<[[f64; 3]; 3]>,
     addresses: [i32; 2],
     layout: OnceLock<Layout>,
-    kept: [Mutex<Block>; 2],
+    kept: Kept,
 }
 
 enum Layout {
     Pieces(Pieces),
     States(States),
-}
-
-/// Words that were read last, from a place in the segment on.
-#[derive(Default)]
-struct Block {
-    first: usize,
-    words: Vec<f64>,
 }
 
 impl Stored {
@@ -88,7 +79,7 @@ impl Stored {
             turn: (!identity).then(|| std::array::from_fn(|row| std::array::from_fn(|column| turn[column][row]))),
             addresses: [rest[2], rest[3]],
             layout: OnceLock::new(),
-            kept: <[Mutex<Block>; 2]>::default(),
+            kept: Kept::default(),
         })
     }
 
@@ -149,78 +140,7 @@ impl Stored {
     }
 
     fn words<'a>(&'a self, file: &'a DafFile) -> Result<Words<'a>, ReadError> {
-        let number = self.segment.number;
-        let [first, last] = self.addresses;
-        match (usize::try_from(first), usize::try_from(last)) {
-            (Ok(first), Ok(last)) if 1 <= first && first <= last && last as u64 <= file.length() => {
-                Ok(Words { file, number, first, count: last + 1 - first, kept: &self.kept })
-            }
-            _ => {
-                let value = format!("{first} to {last}");
-                Err(file.damaged(number, "the addresses", value, format!("increasing, 1 to {}", file.length())))
-            }
-        }
-    }
-}
-
-/// The words of a segment, by their places from 0.
-pub(super) struct Words<'a> {
-    file: &'a DafFile,
-    number: usize,
-    first: usize,
-    count: usize,
-    kept: &'a [Mutex<Block>; 2],
-}
-
-impl Words<'_> {
-    pub(super) fn count(&self) -> usize {
-        self.count
-    }
-
-    /// Words from a place on. The place is inside the segment.
-    pub(super) fn read(&self, place: usize, count: usize) -> Result<Vec<f64>, ReadError> {
-        self.file.words(self.first + place, count)
-    }
-
-    /// N words from a place on.
-    pub(super) fn array<const N: usize>(&self, place: usize) -> Result<[f64; N], ReadError> {
-        let words = self.read(place, N)?;
-        Ok(std::array::from_fn(|word| words[word]))
-    }
-
-    /// What a function makes of words, which are read if they are not the kept ones.
-    pub(super) fn with<T>(&self, place: usize, count: usize, make: impl FnOnce(&[f64]) -> T) -> Result<T, ReadError> {
-        self.with_block(0, place, count, make)
-    }
-
-    /// The same with other kept words, for the times of states.
-    pub(super) fn with_second<T>(
-        &self,
-        place: usize,
-        count: usize,
-        make: impl FnOnce(&[f64]) -> T,
-    ) -> Result<T, ReadError> {
-        self.with_block(1, place, count, make)
-    }
-
-    fn with_block<T>(
-        &self,
-        which: usize,
-        place: usize,
-        count: usize,
-        make: impl FnOnce(&[f64]) -> T,
-    ) -> Result<T, ReadError> {
-        let mut block = self.kept[which].lock().unwrap_or_else(PoisonError::into_inner);
-        if place < block.first || place + count > block.first + block.words.len() {
-            let words = self.read(place, count.max(AHEAD).min(self.count - place))?;
-            *block = Block { first: place, words };
-        }
-        let start = place - block.first;
-        Ok(make(&block.words[start..start + count]))
-    }
-
-    pub(super) fn damaged(&self, item: &'static str, value: impl ToString, allowed: impl Into<String>) -> ReadError {
-        self.file.damaged(self.number, item, value, allowed)
+        Words::new(file, self.segment.number, self.addresses, &self.kept)
     }
 }
 

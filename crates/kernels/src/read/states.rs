@@ -3,7 +3,7 @@
 //! A segment has the states, their times, every hundredth of the times, the number of states of a polynomial less 1, the number of states.
 
 use crate::read::error::ReadError;
-use crate::read::segment::Words;
+use crate::read::words::Words;
 use crate::segments::DIRECTORY;
 
 const STATE: usize = 6;
