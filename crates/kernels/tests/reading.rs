@@ -164,6 +164,25 @@ fn an_orientation_in_two_segments_has_one_interval() -> Result<(), ReadError> {
     Ok(())
 }
 
+/// A file of CSPICE with 25 segments ends with an empty record of summaries, without the record of names.
+#[test]
+fn the_last_record_of_summaries_may_be_empty() -> Result<(), Box<dyn std::error::Error>> {
+    let head = Head { code: -999_000, frame: 1, name: "A".to_owned() };
+    let mut daf = Daf::pck(Cursor::new(Vec::new()), &[])?;
+    for segment in 0..25 {
+        daf.pck2(&head, [0.0, 1.0], 1.0, 0, &[f64::from(segment), 0.0, 0.0])?;
+    }
+    let mut bytes = daf.finish()?.into_inner();
+    let next = (bytes.len() / 1024 + 1) as f64;
+    bytes[1024..1032].copy_from_slice(&next.to_le_bytes());
+    bytes.extend([0.0, 2.0, 0.0].map(f64::to_le_bytes).as_flattened());
+    bytes.resize(bytes.len().next_multiple_of(1024), 0);
+    let mut kernel = Orientations::open::<&str>(&[])?;
+    kernel.load("a.bpc", Cursor::new(bytes))?;
+    assert_eq!((kernel.segments().count(), kernel.angles(-999_000, 0.5)?.0), (25, [24.0, 0.0, 0.0]));
+    Ok(())
+}
+
 #[test]
 fn another_kind_of_file_is_named() {
     let kind = |name, bytes: &[u8]| Kernel::open(name, bytes.to_vec()).err().map(|error| error.to_string());

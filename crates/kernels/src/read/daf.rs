@@ -91,18 +91,20 @@ impl DafFile {
         let (mut next, mut visited) = (f64::from(first), BTreeSet::new());
         let records = self.bytes / RECORD as u64;
         while next != 0.0 {
-            let inside = next >= 2.0 && next < records as f64 && next.fract() == 0.0;
+            let inside = next >= 2.0 && next <= records as f64 && next.fract() == 0.0;
             if !inside || !visited.insert(next as u64) {
-                let allowed = format!("2 to {}, each once", records.saturating_sub(1));
+                let allowed = format!("2 to {records}, each once");
                 return Err(self.damaged(0, "the number of a summary record", next, allowed));
             }
-            let both = self.bytes((next as u64 - 1) * RECORD as u64, 2 * RECORD)?;
-            let (record, names) = both.split_at(RECORD);
+            let place = (next as u64 - 1) * RECORD as u64;
+            let record = self.bytes(place, RECORD)?;
             let control: Vec<f64> = record[..CONTROL * WORD].chunks(WORD).map(|word| self.double(word)).collect();
             let count = control[2];
             if !(0.0..=MOST as f64).contains(&count) || count.fract() != 0.0 {
                 return Err(self.damaged(0, "the number of summaries in a record", count, format!("0 to {MOST}")));
             }
+            // After 25 segments CSPICE begins a record of summaries, and the record of names behind it comes with the next segment.
+            let names = if count > 0.0 { self.bytes(place + RECORD as u64, RECORD)? } else { Vec::new() };
             let parts = record[CONTROL * WORD..].chunks(SUMMARY * WORD).zip(names.chunks(NAME));
             summaries.extend(parts.take(count as usize).map(|(part, name)| Summary {
                 name: String::from_utf8_lossy(name).trim_end_matches([' ', '\0']).to_owned(),
