@@ -192,6 +192,14 @@ fn another_kind_of_file_is_named() {
     assert!(error.starts_with("no/such/file.bsp cannot be read: "));
 }
 
+#[test]
+fn threads_share_kernels() {
+    fn shared<T: Send + Sync>() {}
+    shared::<Ephemeris>();
+    shared::<Orientations>();
+    shared::<ReadError>();
+}
+
 /// A file of 1 GB with one segment of records of 26 words, which makes its words when they are read and counts them.
 struct Large {
     place: u64,
