@@ -6,7 +6,7 @@ use crate::daf::SPK;
 use crate::read::daf::Source;
 use crate::read::error::{Gap, ReadError, finite};
 use crate::read::files::Files;
-use crate::read::segment::{Segment, turned};
+use crate::read::segment::{Segment, Stored, turned};
 
 /// The barycentre of the solar system, where chains of centres end.
 const BARYCENTER: i32 = 0;
@@ -69,43 +69,46 @@ impl Ephemeris {
     pub fn state(&self, target: i32, observer: i32, et: f64) -> Result<([f64; 3], [f64; 3]), ReadError> {
         finite(et)?;
         let mut gaps = Vec::new();
-        let mut chain = vec![(target, State::default())];
-        while let Some(&link) = chain.last().filter(|link| chain.len() < LONGEST && link.0 != observer) {
-            match self.next(link, et, &mut gaps)? {
-                Some(next) => chain.push(next),
-                None => break,
-            }
-        }
-        let mut link = (observer, State::default());
-        for _ in 0..LONGEST {
-            if let Some((_, [position, velocity])) = chain.iter().find(|(body, _)| *body == link.0) {
-                let difference = |one: &[f64; 3], other: &[f64; 3]| std::array::from_fn(|k| one[k] - other[k]);
-                return Ok((difference(position, &link.1[0]), difference(velocity, &link.1[1])));
-            }
-            match self.next(link, et, &mut gaps)? {
-                Some(next) => link = next,
-                None => break,
-            }
-        }
-        gaps.dedup();
-        Err(ReadError::NotCovered { target, observer: Some(observer), et, gaps })
+        let one = self.chain(target, observer, et, &mut gaps);
+        let other = self.chain(observer, target, et, &mut gaps);
+        // The first body of the observer's chain that is in the target's chain too.
+        let common = other
+            .iter()
+            .enumerate()
+            .find_map(|(far, (body, _))| one.iter().position(|(other, _)| other == body).map(|near| (near, far)));
+        let Some((near, far)) = common else {
+            gaps.dedup();
+            return Err(ReadError::NotCovered { target, observer: Some(observer), et, gaps });
+        };
+        let (one, other) = (self.sum(&one[..near], et)?, self.sum(&other[..far], et)?);
+        let [position, velocity] = std::array::from_fn(|part| std::array::from_fn(|k| one[part][k] - other[part][k]));
+        Ok((position, velocity))
     }
 
-    /// The next body of a chain of centres, with the sum of the states up to it. The barycentre has none; for a body without data there is one more gap.
-    fn next(&self, (body, sum): (i32, State), et: f64, gaps: &mut Vec<Gap>) -> Result<Option<(i32, State)>, ReadError> {
-        if body == BARYCENTER {
-            return Ok(None);
+    /// A body and its centres up to `end`, to the barycentre or to a body without data, which is one more gap; each with its segment, but for the last.
+    fn chain(&self, body: i32, end: i32, et: f64, gaps: &mut Vec<Gap>) -> Vec<(i32, Option<&Stored>)> {
+        let mut chain = Vec::with_capacity(4);
+        let mut body = body;
+        while chain.len() < LONGEST && ![end, BARYCENTER].contains(&body) {
+            let Some(stored) = self.0.find(body, et) else {
+                gaps.push(self.0.gap(body, et));
+                break;
+            };
+            chain.push((body, Some(stored)));
+            body = stored.segment.center.unwrap_or(BARYCENTER);
         }
-        let Some(stored) = self.0.find(body, et) else {
-            gaps.push(self.0.gap(body, et));
-            return Ok(None);
-        };
-        let mut state = self.0.at(stored, et)?;
-        if let Some(turn) = stored.turn {
-            state = state.map(|vector| turned(&turn, vector));
-        }
-        let sum = std::array::from_fn(|part| std::array::from_fn(|k| sum[part][k] + state[part][k]));
-        // The files of an ephemeris have six integers in a summary, and the second is the centre.
-        Ok(stored.segment.center.map(|center| (center, sum)))
+        chain.push((body, None));
+        chain
+    }
+
+    /// The sum of the states of segments, in J2000.
+    fn sum(&self, chain: &[(i32, Option<&Stored>)], et: f64) -> Result<State, ReadError> {
+        chain.iter().filter_map(|(_, stored)| *stored).try_fold(State::default(), |sum, stored| {
+            let mut state = self.0.at(stored, et)?;
+            if let Some(turn) = &stored.turn {
+                state = state.map(|vector| turned(turn, vector));
+            }
+            Ok(std::array::from_fn(|part| std::array::from_fn(|k| sum[part][k] + state[part][k])))
+        })
     }
 }
