@@ -122,7 +122,7 @@ stress: $(VENV)/installed  ## 240,000 random scenes of every regime against 40 d
 stress-short: $(VENV)/installed  ## the same with 16,000 scenes, a minute
 	$(BIN)/python tests/stress/run.py --short
 
-FUZZED := series_json scene_toml expression scene_numbers
+FUZZED := series_json scene_toml expression scene_numbers kernel
 FUZZ_SECONDS ?= 60
 fuzz:  ## each fuzz target for a minute; needs a nightly compiler, and cargo-fuzz, which is installed if it is not there
 	command -v cargo-fuzz >/dev/null || cargo install --locked --quiet cargo-fuzz

@@ -6,11 +6,27 @@
 
 use std::io::{self, Seek, SeekFrom, Write};
 
-const RECORD: usize = 1024;
-const WORD: usize = 8;
-/// Words of a summary, two doubles and up to six integers, and its number in a record.
-const SUMMARY: usize = 5;
-const MOST: usize = 25;
+pub(crate) const RECORD: usize = 1024;
+pub(crate) const WORD: usize = 8;
+/// Words of a summary, two doubles and up to six integers, its number in a record, and the words before the first one.
+pub(crate) const SUMMARY: usize = 5;
+pub(crate) const MOST: usize = 25;
+pub(crate) const CONTROL: usize = 3;
+/// Doubles of a summary.
+pub(crate) const DOUBLES: u32 = 2;
+/// Places in the file record: the name of the file, the number of the first summary record, the byte order.
+pub(crate) const FILE_NAME: usize = 16;
+pub(crate) const FIRST: usize = FILE_NAME + INTERNAL;
+pub(crate) const ORDER: usize = FIRST + 12;
+/// The words for the byte order: little-endian, big-endian.
+pub(crate) const ORDERS: [&[u8; 8]; 2] = [b"LTL-IEEE", b"BIG-IEEE"];
+
+/// A kind of file: its identity and the number of integers of a summary.
+pub(crate) type Kind = (&'static [u8; 8], u32);
+pub(crate) const CK: Kind = (b"DAF/CK  ", 6);
+pub(crate) const PCK: Kind = (b"DAF/PCK ", 5);
+pub(crate) const SPK: Kind = (b"DAF/SPK ", 6);
+
 /// Characters of a comment in a record.
 const COMMENT: usize = 1000;
 /// Characters of the name of an array, and of the internal name of the file.
@@ -67,7 +83,7 @@ impl<W: Write + Seek> Daf<W> {
     /// # Errors
     /// Those of the stream.
     pub fn ck(out: W, comments: &[String]) -> io::Result<Self> {
-        Self::new(out, b"DAF/CK  ", 6, comments)
+        Self::new(out, CK, comments)
     }
 
     /// A binary PCK with these lines in its comment area, as for [`ck`](Self::ck).
@@ -75,10 +91,10 @@ impl<W: Write + Seek> Daf<W> {
     /// # Errors
     /// Those of the stream.
     pub fn pck(out: W, comments: &[String]) -> io::Result<Self> {
-        Self::new(out, b"DAF/PCK ", 5, comments)
+        Self::new(out, PCK, comments)
     }
 
-    fn new(mut out: W, identity: &'static [u8; 8], integers: u32, comments: &[String]) -> io::Result<Self> {
+    fn new(mut out: W, (identity, integers): Kind, comments: &[String]) -> io::Result<Self> {
         let mut bytes = vec![0; RECORD];
         for part in comment_area(comments).chunks(COMMENT) {
             bytes.extend_from_slice(part);
@@ -124,10 +140,10 @@ impl<W: Write + Seek> Daf<W> {
         self.put_summaries()?;
         let number = |value: usize| (value as u32).to_le_bytes();
         let mut bytes = self.identity.to_vec();
-        bytes.extend([2, self.integers].map(u32::to_le_bytes).as_flattened());
+        bytes.extend([DOUBLES, self.integers].map(u32::to_le_bytes).as_flattened());
         bytes.extend_from_slice(padded("andoyer", INTERNAL).as_bytes());
         bytes.extend([number(self.first), number(self.summaries.record), number(free)].as_flattened());
-        bytes.extend_from_slice(b"LTL-IEEE");
+        bytes.extend_from_slice(ORDERS[0]);
         bytes.resize(699, 0);
         // A transfer in text mode would change these bytes, and CSPICE looks at them.
         bytes.extend_from_slice(b"FTPSTR:\r:\n:\r\n:\r\0:\x81:\x10\xce:ENDFTP");

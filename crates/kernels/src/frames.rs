@@ -76,6 +76,11 @@ pub fn find(name: &str) -> Option<(i32, &'static str)> {
     place.or((name == "ICRF").then_some((J2000, "ICRF")))
 }
 
+/// Whether a code is that of an inertial frame.
+pub fn is_inertial(code: i32) -> bool {
+    (1..=INERTIAL.len() as i32).contains(&code)
+}
+
 /// Whether SPICE has a frame of this name, inertial or rotating, without any kernel.
 pub fn is_taken(name: &str) -> bool {
     find(name).is_some() || ROTATING.iter().any(|start| name.starts_with(start))
@@ -93,7 +98,7 @@ pub fn has_constants(code: i32) -> bool {
 /// assert!((from_j2000(17)[1][2] - (84381.448_f64 / 3600.0).to_radians().sin()).abs() < 1e-15);
 /// ```
 pub fn from_j2000(code: i32) -> [[f64; 3]; 3] {
-    let place = usize::try_from(code - 1).unwrap_or_default();
+    let place = usize::try_from(code.saturating_sub(1)).unwrap_or_default();
     let Some(&Inertial(_, base, rotations)) = INERTIAL.get(place).filter(|_| place > 0) else {
         return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     };

@@ -6,7 +6,7 @@ use crate::daf::Daf;
 use crate::kernel::Kernel;
 
 /// One time in a directory for as many times.
-const DIRECTORY: usize = 100;
+pub(crate) const DIRECTORY: usize = 100;
 
 /// The head of a segment: the code of the frame that is described, the code of the inertial frame that it is described in, the name of the segment.
 #[derive(Clone, Debug, PartialEq)]
