@@ -62,6 +62,27 @@ impl Gravity {
         Ok(Self(field))
     }
 
+    /// The field of a body by its name.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     "moon": the coefficients of JPL's ephemeris DE421 about the principal axes, with a radius of 1738 km. C20 and the moments give the inertia factor.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     Another name.
+    ///
+    /// Examples
+    /// --------
+    /// >>> Gravity.named("moon").coefficients["C31"]
+    /// 2.8452435e-05
+    #[classmethod]
+    fn named(_class: &Bound<'_, PyType>, name: &str) -> PyResult<Self> {
+        torques::Gravity::named(name).map(Self).map_err(error::propagation)
+    }
+
     /// The field of degree 4 of a homogeneous ellipsoid with semi-axes a, b, c along body axes 1, 2, 3 (G. Balmino 1994). That of degree 3 is 0.
     ///
     /// Parameters

@@ -19,6 +19,7 @@ mod domain;
 mod driven;
 mod driven_form;
 mod ensemble;
+mod ephemeris;
 mod error;
 mod evolution;
 mod expression;
@@ -72,6 +73,8 @@ mod _core {
     use super::driven_form::DrivenNormalForm;
     #[pymodule_export]
     use super::ensemble::Ensemble;
+    #[pymodule_export]
+    use super::ephemeris::_read_pck;
     #[pymodule_export]
     use super::error::{
         Error, FileError, InputError, InternalError, RepresentationError, TheoryError, ToleranceWarning,

@@ -37,6 +37,28 @@ const HARMONICS: [(&str, &str); 16] = [
 /// Those of degree 2, which are compared with the inertia tensor.
 const OF_INERTIA: [&str; 5] = ["C20", "C21", "S21", "C22", "S22"];
 
+/// Those of JPL's DE421, from its file of constants.
+const OF_THE_MOON: [(&str, f64); 18] = [
+    ("C20", -2.032_732_576_370_724e-4),
+    ("C22", 2.238_976_709_652_413e-5),
+    ("C30", -8.404_701_525_941e-6),
+    ("C31", 2.845_243_5e-5),
+    ("S31", 5.900_8e-6),
+    ("C32", 4.846_387_240_009_03e-6),
+    ("S32", 1.684_198_474_147_6e-6),
+    ("C33", 1.674_047_530_039_142e-6),
+    ("S33", -2.485_526e-7),
+    ("C40", 9.642_286e-6),
+    ("C41", -5.692_687e-6),
+    ("S41", 1.574_393e-6),
+    ("C42", -1.586_2e-6),
+    ("S42", -1.517_312e-6),
+    ("C43", -8.120_41e-8),
+    ("S43", -8.027_907e-7),
+    ("C44", -1.273_941e-7),
+    ("S44", 8.314_75e-8),
+];
+
 /// Coefficients of degree 2 that differ from those of the inertia tensor by more than this part of the largest are named.
 const DIFFERENT: f64 = 1e-3;
 
@@ -99,6 +121,17 @@ impl Gravity {
             return Ok(Self { inertia_factor: Some(factor), ..self });
         }
         Err(refused("inertia_factor", factor, "positive and finite"))
+    }
+
+    /// The field of a body by its name: "moon", that of JPL's DE421 about its principal axes, as in the constants of that ephemeris (J_n = −C_n0); radius in km.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for another name.
+    pub fn named(name: &str) -> Result<Self, Error> {
+        if !name.eq_ignore_ascii_case("moon") {
+            return Err(refused("name", name, "\"moon\""));
+        }
+        Self::new(&OF_THE_MOON, 1738.0)
     }
 
     /// The coefficients of degree 4 of a homogeneous ellipsoid with semi-axes along body axes 1, 2, 3, with those of degree 2; the odd ones are 0.

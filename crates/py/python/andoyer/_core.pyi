@@ -196,6 +196,20 @@ class TabulatedOrbit:
     """A table of the position of a disturbing body relative to the rotating body. Only the integrated method uses it."""
 
     def __new__(cls, times: ArrayLike | Any, positions: ArrayLike, gm: float, *, velocities: ArrayLike | None = None) -> TabulatedOrbit: ...
+    @classmethod
+    def from_spk(
+        cls,
+        files: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
+        target: int | str,
+        observer: int | str,
+        span: ArrayLike | Sequence[Any],
+        *,
+        gm: float,
+        frame: str = "J2000",
+        error: float = 1e-09,
+        epoch: float | Any | None = None,
+    ) -> TabulatedOrbit:
+        """The orbit of a body from SPICE's ephemerides (SPK of type 2, 3, 9 or 13), read without SpiceyPy. Rows with velocities have the longest step that keeps the error."""
     @property
     def times(self) -> _Array:
         """The times, a read-only array of shape (n,)."""
@@ -221,6 +235,9 @@ class Gravity:
     """The gravity field of a rotating body of degree 3 and 4, for `Body(..., gravity=...)`. Disturbing bodies exert torques on it beside the gravity gradient; a scene with them is integrated."""
 
     def __new__(cls, coefficients: dict[str, float], radius: float, *, inertia_factor: float | None = None) -> Gravity: ...
+    @classmethod
+    def named(cls, name: str) -> Gravity:
+        """The field of a body by its name."""
     @classmethod
     def ellipsoid(cls, a: float, b: float, c: float, *, radius: float | None = None) -> Gravity:
         """The field of degree 4 of a homogeneous ellipsoid with semi-axes a, b, c along body axes 1, 2, 3 (G. Balmino 1994). That of degree 3 is 0."""
@@ -1436,6 +1453,9 @@ def normalize(
     start: None = None,
 ) -> BirkhoffNormalForm:
     """Computes the Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin."""
+
+def _read_pck(files: Any, code: int, times: ArrayLike) -> tuple[_Array, _Array]:
+    """Attitudes and angular velocities in body components of a body frame at times, from binary PCK files."""
 
 def _frame_code(body_frame: str) -> int:
     """The code of a frame that has no other: computed from its name."""
