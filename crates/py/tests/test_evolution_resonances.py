@@ -40,6 +40,17 @@ def tumbler(excess, size, seed, phases=(0.1, 0.3)):
     return andoyer.Scene(andoyer.Body(MOMENTS), state.attitude, state.angular_velocity, torques=torque(seed, size))
 
 
+def resonant_excess():
+    """The excess at which the wobble has twice the rate of the rotation about M: P_ψ = 3 P_φ."""
+    low, high = 1e-3, 0.32
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        rates = tumbler(middle, 1e-4, 4).angular_velocity
+        periods = andoyer.Scene(andoyer.Body(MOMENTS), [0, 0, 0, 1], rates).solve().periods["extremal-axis"]
+        low, high = (middle, high) if periods.rotation / periods.precession < 3 else (low, middle)
+    return 0.5 * (low + high)
+
+
 # Of docs/theory-averaged.md's prototype: 2|F|/|ξ̇|, and (13) for ξ and for M without the factor of the slowest passage, at ε = 1e-4.
 TABLE = {4: (0.63, 2.1e-3, 3.5e-3), 6: (0.28, 1.4e-3, 2.3e-3), 8: (0.69, 3.0e-3, 4.7e-3), 9: (1.13, 4.6e-3, 3.9e-3), 11: (0.45, 1.7e-3, 2.9e-3)}
 
@@ -47,8 +58,9 @@ TABLE = {4: (0.63, 2.1e-3, 3.5e-3), 6: (0.28, 1.4e-3, 2.3e-3), 8: (0.69, 3.0e-3,
 @pytest.mark.parametrize("seed", TABLE)
 def test_the_passage_of_minus_two_one_is_that_of_the_prototype(seed):
     ratio, _, jump = TABLE[seed]
-    for start in (0.02, 0.1, 0.2, 0.3):
-        evolution = tumbler(start, 1e-4, seed).evolve((0, 4e3))
+    place = resonant_excess()
+    for start in (0.998 * place, 1.002 * place):
+        evolution = tumbler(start, 1e-4, seed).evolve((0, 400.0))
         found = [one for one in evolution.plan.resonances if one[:2] == (-2, 1)]
         if found:
             break
@@ -56,7 +68,7 @@ def test_the_passage_of_minus_two_one_is_that_of_the_prototype(seed):
     assert capture == (ratio >= 1)
     expected = jump / 0.985 / (1 if capture else np.sqrt(1 - ratio))
     assert change == pytest.approx(expected, rel=0.12)  # the table has two digits
-    assert 0 < time < 4e3
+    assert 0 < time < 400
     assert evolution.plan.error_bound >= change
 
 
