@@ -18,7 +18,7 @@ from andoyer.fit._curve import Curve, States
 from andoyer.fit._search import Population, improve, random_spins
 from andoyer.fit._steps import moments_of_ellipsoid
 
-ROUNDS = ((64, 200, 8, 6), (12, 800, 40, 8), (3, 2000, 80, 10))
+ROUNDS = ((64, 300, 16, 8), (16, 800, 40, 8), (4, 2000, 80, 10))
 """Of each round the pairs, the starts of each, how many of these are improved, and by how many steps."""
 SPIN_ROUNDS = ((32, 100, 6, 6), (8, 400, 20, 8))
 """Those of simple rotations."""
