@@ -199,7 +199,14 @@ def judge(evidence: Evidence) -> Verdict:
 
 
 def _shapeless(evidence: Evidence) -> bool:
-    """Whether simple rotation of a body of another shape is not excluded, for noise of unknown size and the number of independent points."""
+    """Whether simple rotation of a body of another shape is not excluded.
+
+    Either by a series of one period, for noise of unknown size and the number of independent points, or because P_ψ is P_φ or twice that: such a tumbler repeats itself, and with few
+    parameters it has the odd harmonics that an ellipsoid in rotation has not.
+    """
+    precession, rotation = evidence.optima[0].periods
+    if any(abs(k / precession - 2 / rotation) * evidence.duration < 2 * HALF_TURN for k in (1, 2)):
+        return True
     points = len(evidence.residuals) / correlation(evidence.residuals, evidence.curves)
     return bool(points * np.log(max(evidence.series, 1e-300) / max(evidence.optima[0].chi_square, 1e-300)) < TRIALS)
 
