@@ -8,7 +8,7 @@ that change over weeks; 3 to 10 nights of 4 to 8 h with gaps and an unknown zero
 rotators, and data that do not determine the motion: few points, weak tumblers, near-spheres. The fit has the semi-axes of the ellipsoid of equal moments with an error of 10 %.
 
 Periods are right if both phases agree within half a turn over the data, the pole if it is within 10° or three standard deviations, the mode if it is the same. For simple rotation the period of the
-rotation is compared: for a fit in the short-axis mode this is P_φ about the long axis, of frequency 1/P_φ − 1/P_ψ.
+rotation is compared: for a fit in the short-axis mode this is P_φ about the long axis, of frequency 1/P_φ − 1/P_ψ; where the verdict says that simple rotation explains the data as well, its period.
 """
 
 import argparse
@@ -332,6 +332,9 @@ def agreement(state, deviation, truth):
 def truth_in(verdict, fit, truth):
     """Whether periods, pole and mode of the best state are right, and, under "secure", whether each of them that the verdict calls secure is right."""
     right, _ = agreement(state_of(fit.scene), pole_deviation(fit), truth)
+    if verdict.simple:
+        optimum = fit.simple_rotation.optimum
+        right["periods"] = agreement(("principal-axis", tuple(optimum.periods), optimum.direction), np.nan, truth)[0]["periods"]
     secure = [part for part in PARTS if getattr(verdict, part) == "secure"]
     return right | {"secure": all(right[part] for part in secure)}
 

@@ -18,10 +18,11 @@ from andoyer.fit._given import enough, generator_of, scene_of, shaped, span, who
 from andoyer.fit._magnitudes import POGSON, ZeroPoints
 from andoyer.fit._message import composed, largest_reduced, rivals
 from andoyer.fit._observed import Data, Light, Seen, confused, data_of
-from andoyer.fit._optimum import Optimum
+from andoyer.fit._optimum import HALF_TURN, Optimum
 from andoyer.fit._result import Fit, Photometric, judged
 from andoyer.fit._scattering import axes_of, law
 from andoyer.fit._search import Population, at_other_rates, best, improve, random_spins, random_states, reflections, search
+from andoyer.fit._spectrum import frequencies_of, from_spectrum, of_one_period, together
 from andoyer.fit._steps import Steps, moments_of_ellipsoid
 from andoyer.fit._summary import described
 from andoyer.fit._verdict import REACHED, Evidence, judge, scale, simple_rotation
@@ -65,9 +66,9 @@ def light_curve(
     scale_errors: bool = False,
     rng: Any = 0,
 ) -> Fit:
-    """Fits the state of a homogeneous ellipsoid to its brightnesses, from many random starts.
+    """Fits the state of a homogeneous ellipsoid to its brightnesses, from many starts.
 
-    The starts have random directions of the angular momentum in space and in the body, half of them in each mode, and precession frequencies between those of `periods`. All starts are
+    Some starts have the pairs of periods with which a Fourier series in two angles fits the data best, and random angles. The others have random directions of the angular momentum in space and in the body, half of them in each mode, and precession frequencies between those of `periods`. All starts are
     evaluated. The best of each mode are improved together by Levenberg and Marquardt's method with the derivatives of `Ensemble.partials` (theory §12), in rounds with fewer and fewer states.
     `scipy.optimize.least_squares` improves the last few. Reflections of these minima, which can look nearly the same, are starts too. The fit includes a brightness factor for each curve. Half turns about the body axes do not change the brightness; one of the four
     equivalent states is returned. The function needs SciPy, which ``pip install scipy`` installs.
@@ -105,7 +106,7 @@ def light_curve(
     scene : Scene, optional
         A torque-free first state that rotates, instead of random states; its moments are replaced by those of the ellipsoid. The fit finds the minimum next to it, and no rival minima.
     starts : int, optional
-        Number of random starts.
+        Number of random starts, beside those from the spectrum of the data.
     delta_chi_square : float, optional
         Largest difference of χ² from the least χ² in `Fit.optima`, 0 or more; by default all minima are listed.
     scale_errors : bool, optional
@@ -171,39 +172,59 @@ def light_curve(
         limits = _range(periods)
         if curve.spin is not None:
             return _result(data, _simple(curve, semi_axes, limits, (count, POLISHED), generator), None, largest, scale_errors)
-        found = _searched(curve, random_states(semi_axes, limits, count, generator))
+        found = _searched(curve, random_states(semi_axes, limits, count, generator), from_spectrum(curve, semi_axes, limits, generator))
         # The spin of a body that hardly wobbles is slower than its precession: by A/C at most.
         moments = np.sort(moments_of_ellipsoid(semi_axes))
         simple = replace(curve, spin=int(np.argmax(moments_of_ellipsoid(semi_axes))))
-        rotation = _simple(simple, semi_axes, (limits[0], limits[1] * moments[2] / moments[0]), (max(FEW, count // 5), HYPOTHESES), generator)
+        slow = limits[0], limits[1] * moments[2] / moments[0]
+        rotation = _simple(simple, semi_axes, slow, (max(FEW, count // 5), HYPOTHESES), generator)
         if rotation.population.chi_squares[0] < found.population.chi_squares[0]:
             found = _from_rotation(curve, found, rotation)
-    return _result(data, found, (replace(data, curve=simple), rotation), largest, scale_errors)
+        series = of_one_period(curve, slow)
+    return _result(data, found, Hypothesis(replace(data, curve=simple), rotation, series), largest, scale_errors)
 
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """Minima, the best first, and how many starts led to the best."""
+    """Minima, the best first, and how many starts ended with the periods of the best, below all others."""
 
     population: Population
     reached: int
 
 
-def _searched(curve: Curve, drawn: States, count: int = POLISHED) -> Found:
-    """The minima to which random starts lead, with their reflections and their aliases by the gaps of the data."""
-    population = search(curve, drawn)
-    ended = population.chi_squares
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """Simple rotation, beside a tumbling motion."""
+
+    data: Data
+    found: Found
+    series: float
+    """χ² of a Fourier series of one period."""
+
+
+def _searched(curve: Curve, drawn: States, spectral: Population, count: int = POLISHED) -> Found:
+    """The minima to which random starts and those from the spectrum lead, with their reflections and their aliases by the gaps of the data."""
+    ended = population = together([search(curve, drawn), spectral])
     population = _polished(curve, improve(curve, best(_distinct(curve, population), count), SETTLING))
     if count == POLISHED:
         population = _with_others(curve, population)
-    least = float(population.chi_squares[0])
-    return Found(population, int(np.sum(ended <= 1.05 * least + 4.0)))
+    return Found(population, _reached(curve, ended, population))
+
+
+def _reached(curve: Curve, ended: Population, minima: Population) -> int:
+    """The starts that ended with the periods of the best minimum, below the minima with others."""
+    duration = float(np.ptp(curve.times))
+    best, *others = frequencies_of(minima.states)
+    other = np.max(np.abs(np.reshape(others, (-1, 2)) - best), axis=1, initial=0.0) * duration > HALF_TURN
+    lowest = float(np.min(minima.chi_squares[1:][other], initial=np.inf))
+    same = np.max(np.abs(frequencies_of(ended.states) - best), axis=1) * duration <= HALF_TURN
+    return int(np.sum(same & (ended.chi_squares < min(lowest, FAR * float(minima.chi_squares[0])))))
 
 
 def _simple(curve: Curve, axes: Array, periods: tuple[float, float], starts: tuple[int, int], generator: np.random.Generator) -> Found:
     """Simple rotations from random starts, of which so many minima are improved to the end."""
     assert curve.spin is not None
-    return _searched(curve, random_spins(axes, curve.spin, periods, starts[0], generator), starts[1])
+    return _searched(curve, random_spins(axes, curve.spin, periods, starts[0], generator), from_spectrum(curve, axes, periods, generator), starts[1])
 
 
 def _range(periods: Any) -> tuple[float, float]:
@@ -229,7 +250,7 @@ def _from_rotation(curve: Curve, found: Found, rotation: Found) -> Found:
     state = rotation.population.states.part(slice(0, 1))
     nudged = state._replace(rates=state.rates + WOBBLE * np.linalg.norm(state.rates))
     population = _polished(curve, improve(curve, Population(nudged, curve.chi_squares(nudged)), SETTLING))
-    kept = _distinct(curve, _joined(found.population, population))
+    kept = _distinct(curve, together([found.population, population]))
     order = np.argsort(kept.chi_squares, kind="stable")
     return Found(Population(kept.states.part(order), kept.chi_squares[order]), rotation.reached)
 
@@ -296,19 +317,14 @@ def _with_others(curve: Curve, minima: Population) -> Population:
         shifted = at_other_rates(minima.states.part(slice(0, 4)), shifts)
         mirrored = States(*(np.concatenate(arrays) for arrays in zip(mirrored, shifted)))
     found = improve(curve, Population(mirrored, curve.chi_squares(mirrored)), SETTLING)
-    places = _different(curve, _joined(minima, found))[:POLISHED]
+    places = _different(curve, together([minima, found]))[:POLISHED]
     new = places[places >= len(minima.chi_squares)] - len(minima.chi_squares)
     if not len(new):
         return minima
     polished = _polished(curve, Population(found.states.part(new), found.chi_squares[new]))
-    kept = best(_distinct(curve, _joined(minima, polished)), POLISHED)
+    kept = best(_distinct(curve, together([minima, polished])), POLISHED)
     order = np.argsort(kept.chi_squares, kind="stable")
     return Population(kept.states.part(order), kept.chi_squares[order])
-
-
-def _joined(first: Population, second: Population) -> Population:
-    states = States(*(np.concatenate(arrays) for arrays in zip(first.states, second.states)))
-    return Population(states, np.concatenate([first.chi_squares, second.chi_squares]))
 
 
 def _polished(curve: Curve, population: Population) -> Population:
@@ -345,13 +361,13 @@ def _jacobian(step: Array, curve: Curve, state: States) -> Array:
     return jacobian
 
 
-def _result(data: Data, found: Found, hypothesis: tuple[Data, Found] | None, delta_chi_square: float, scale_errors: bool) -> Fit:
+def _result(data: Data, found: Found, hypothesis: Hypothesis | None, delta_chi_square: float, scale_errors: bool) -> Fit:
     """The fit of the best minimum, with all minima and the verdict."""
     minima = _optima(data, found, scale_errors)
     best = minima[0]
     optima = tuple(minimum for minimum in minima if minimum.delta_chi_square <= delta_chi_square)
     fit, zero_points, lost, residuals = _of_minimum(data, found.population.states.part(slice(0, 1)), best, scale_errors)
-    simple = _optima(*hypothesis, scale_errors)[0] if hypothesis is not None else None
+    simple = _optima(hypothesis.data, hypothesis.found, scale_errors) if hypothesis is not None else []
     curve = data.curve
     constant = np.sum(
         (curve.weights * curve.brightness) @ curve.members / (curve.weights @ curve.members) * ((curve.weights * curve.brightness) @ curve.members)
@@ -364,6 +380,7 @@ def _result(data: Data, found: Found, hypothesis: tuple[Data, Found] | None, del
         duration=float(np.ptp(curve.times)),
         reached=found.reached,
         simple=simple,
+        series=hypothesis.series if hypothesis is not None else np.inf,
         constant=float(np.sum(curve.weights * curve.brightness**2) - constant),
         undetermined=frozenset(quantity.name for quantity in described(fit._steps, fit.covariance, fit.undetermined) if quantity.lost),
         unit=" s" if hasattr(data.epoch, "jd1") or has_units(as_one("times", data.times)) else "",

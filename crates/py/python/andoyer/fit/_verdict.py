@@ -1,7 +1,8 @@
 """`Verdict`: how far light curves determine periods, pole and mode, from the minima of χ² and the hypothesis of simple rotation.
 
 Differences of χ² are divided by a scale: the reduced χ² of the best fit if it is above 1, for what the model cannot show, times the correlation of neighbouring residuals, for what is
-counted several times. A rival is a minimum whose scaled Δχ² is below `NEAR`. The bounds are chosen and not calibrated: benches/verdicts.py measures on simulated data how often they are right.
+counted several times. A rival is a minimum whose scaled Δχ² is below `NEAR`. A body is no ellipsoid, so a Fourier series of one period is a rival too: simple rotation with any light curve. The bounds are
+chosen and not calibrated: benches/verdicts.py measures on simulated data how often they are right.
 """
 
 from __future__ import annotations
@@ -29,6 +30,10 @@ LONGEST = 10
 """Largest correlation of residuals, in points."""
 CHANCE = 1e-3
 """Probability of an improvement by chance above which a hypothesis with fewer parameters stands."""
+TRIALS = 40.0
+"""Twice the logarithm of the ratio of the likelihoods of tumbling and of a series of one period, up to which the series stands: `NEAR` and 2 ln of 2e5 pairs of periods tried."""
+UNEXPLAINED = 0.05
+"""Part of the signal that a simple rotation leaves at most, noise apart, to be secure where tumbling gains nothing: wrong minima of a poor search gain nothing either."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +74,8 @@ class Verdict:
     """Scaled Δχ² of the next minimum with other periods, another pole, another mode; infinite without one."""
     reached: int
     """Starts that led to the best minimum."""
+    simple: bool
+    """Whether simple rotation explains the data as well: `periods` is then said of its period."""
     sentence: str
 
     def __str__(self) -> str:
@@ -90,8 +97,10 @@ class Evidence:
     duration: float
     reached: int
     """Starts that led to the best minimum."""
-    simple: Optimum | None
-    """The best simple rotation, beside a tumbling motion."""
+    simple: Sequence[Optimum]
+    """Simple rotations, the best first, beside a tumbling motion."""
+    series: float
+    """χ² of a Fourier series of one period: of a simple rotation with another shape than an ellipsoid."""
     constant: float
     """χ² of constant brightness in each curve."""
     undetermined: frozenset[str]
@@ -121,11 +130,11 @@ def correlation(residuals: Array, curves: Array) -> float:
 
 def simple_rotation(evidence: Evidence) -> SimpleRotation | None:
     """The hypothesis of simple rotation beside the best motion."""
-    if evidence.simple is None:
+    if not evidence.simple:
         return None
     best = evidence.optima[0].chi_square
-    gain = max(evidence.simple.chi_square - best, 0.0)
-    return SimpleRotation(evidence.simple, evidence.simple.chi_square - best, _chance(gain / 2, best, evidence))
+    simple = evidence.simple[0]
+    return SimpleRotation(simple, simple.chi_square - best, _chance(max(simple.chi_square - best, 0.0) / 2, best, evidence))
 
 
 def _chance(gain: float, best: float, evidence: Evidence) -> float:
@@ -158,16 +167,24 @@ def judge(evidence: Evidence) -> Verdict:
         modes.add(optimum.mode)
     seen = (evidence.constant - best.chi_square) / by > NEAR * (6 if best.mode != "principal-axis" else 4)
     found = evidence.reached >= REACHED
+    simple = simple_rotation(evidence)
+    stands = simple is not None and simple.probability > CHANCE
+    if stands:
+        near = [optimum for optimum in evidence.simple if (optimum.chi_square - evidence.simple[0].chi_square) / by < NEAR]
+        pairs = []
+        for optimum in near:
+            pairs += [optimum.periods] * all(turns(optimum.periods, pair, evidence.duration) > HALF_TURN for pair in pairs)
+            poles += [optimum.direction] * all(np.arccos(np.clip(optimum.direction @ pole, -1, 1)) > SEPARATE for pole in poles)
+        found = evidence.simple[0].chi_square - evidence.degrees < UNEXPLAINED * evidence.constant
     periods = _of(len(pairs), seen, found)
-    if evidence.undetermined & {"P_φ", "P_ψ", "period"}:
+    if evidence.undetermined & ({"period"} if stands else {"P_φ", "P_ψ", "period"}):
         periods = LOST
     lost = periods == LOST or evidence.undetermined & {"pole longitude", "pole latitude"}
     pole = _of(len(poles), seen and not lost, found)
-    simple = simple_rotation(evidence)
-    if simple is not None and simple.probability > CHANCE:
+    if stands or (simple is not None and _shapeless(evidence)):
         modes.add("principal-axis")
-    mode = _of(len(modes), seen, found)
-    if mode == AMBIGUOUS and periods == SECURE and "principal-axis" in modes and best.mode != "principal-axis":
+    mode = _of(len(modes), seen, found and periods == SECURE)
+    if mode == AMBIGUOUS and periods == SECURE and "principal-axis" in modes and best.mode != "principal-axis" and not stands:
         # The periods of a tumbler that may not tumble.
         periods = AMBIGUOUS
     return Verdict(
@@ -176,8 +193,22 @@ def judge(evidence: Evidence) -> Verdict:
         mode,
         (first[0], first[1], first[2]),
         evidence.reached,
+        stands,
         _sentence(evidence, (periods, pole, mode), (len(pairs), len(poles)), sorted(modes), simple),
     )
+
+
+def _shapeless(evidence: Evidence) -> bool:
+    """Whether simple rotation of a body of another shape is not excluded.
+
+    Either by a series of one period, for noise of unknown size and the number of independent points, or because P_ψ is P_φ or twice that: such a tumbler repeats itself, and with few
+    parameters it has the odd harmonics that an ellipsoid in rotation has not.
+    """
+    precession, rotation = evidence.optima[0].periods
+    if any(abs(k / precession - 2 / rotation) * evidence.duration < 2 * HALF_TURN for k in (1, 2)):
+        return True
+    points = len(evidence.residuals) / correlation(evidence.residuals, evidence.curves)
+    return bool(points * np.log(max(evidence.series, 1e-300) / max(evidence.optima[0].chi_square, 1e-300)) < TRIALS)
 
 
 def _of(count: int, seen: bool, found: bool) -> str:
@@ -190,15 +221,16 @@ def _sentence(evidence: Evidence, words: tuple[str, str, str], counts: tuple[int
     best = evidence.optima[0]
     periods, pole, mode = words
     if best.mode == "principal-axis":
-        size = 2 * np.pi / np.linalg.norm(best.scene.angular_velocity)
-        what = f"The period {size:.6g}{evidence.unit}"
+        what = f"The period {best.periods.precession:.6g}{evidence.unit}"
+    elif simple is not None and simple.probability > CHANCE:
+        what = f"The period {simple.period:.6g}{evidence.unit} of a simple rotation"
     else:
         precession, rotation = best.periods
         what = f"The periods P_φ {precession:.6g}{evidence.unit}, P_ψ {rotation:.6g}{evidence.unit}"
     several = f" ({counts[0]} within the scaled Δχ² {NEAR:g})" if counts[0] > 1 else ""
     longitude, latitude = np.degrees(best.pole)
     of_pole = f" ({counts[1]} of them)" if counts[1] > 1 else ""
-    text = f"{what} {'are' if best.mode != 'principal-axis' else 'is'} {periods}{several}, the pole λ {longitude % 360:.1f}° β {latitude:.1f}° {pole}{of_pole}, the mode {best.mode} {mode}"
+    text = f"{what} {'is' if what.startswith('The period ') else 'are'} {periods}{several}, the pole λ {longitude % 360:.1f}° β {latitude:.1f}° {pole}{of_pole}, the mode {best.mode} {mode}"
     if simple is not None:
         worse = f"worse by Δχ² {simple.delta_chi_square:.4g}" if simple.delta_chi_square > 0.05 else "as well"
         text += f"; simple rotation with {simple.period:.6g}{evidence.unit} fits {worse} (by chance {simple.probability:.1g})"
