@@ -19,7 +19,7 @@ impl Torque {
     /// ----------
     /// moment : array_like of shape (3,), or sequence of three str
     ///     m, in the unit of the torque over that of the field (A m² with tesla and N m), in body axes. Texts are polynomials in the rates ``w1``, ``w2``, ``w3`` and in ``b1``, ``b2``, ``b3``, the body components of the
-    ///     unit vector along the field: ``["2e3*(b2*w3 - b3*w2)", …]`` is a detumbling law.
+    ///     unit vector along the field: ``["2e3*(w2*b3 - w3*b2)", …]`` is a detumbling law.
     /// field : Field, or array_like of shape (3,)
     ///     An array is a uniform inertial field.
     ///

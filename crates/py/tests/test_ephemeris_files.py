@@ -107,5 +107,6 @@ def test_a_month_of_the_moon():
     for name, body in {"degree 2": andoyer.Body(moments), "degree 4": andoyer.Body(moments, gravity=andoyer.Gravity.named("moon"))}.items():
         scene = andoyer.Scene(body, start.attitude[0], start.angular_velocity[0], orbit=bodies, span=(0, END), tolerance=1e-10)
         worst[name] = arcseconds(scene.solve(), np.linspace(0, END, 200)).max()
-    assert worst["degree 4"] < 0.1
-    assert worst["degree 2"] > 5 * worst["degree 4"]
+    # What is left is the elasticity and the core of the Moon.
+    assert worst["degree 4"] < 0.2
+    assert worst["degree 2"] > 10 * worst["degree 4"]

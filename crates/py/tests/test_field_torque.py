@@ -78,8 +78,8 @@ def test_the_field_is_that_of_the_formula():
 @pytest.mark.parametrize("seed", range(3))
 def test_a_dipole_and_eddy_currents_move_a_body_as_dop853_says(seed):
     rng = np.random.default_rng(100 + seed)
-    path, span = orbit(seed), 20000.0
-    moment, tensor = rng.normal(size=3) * 30, np.diag(rng.uniform(1, 4, size=3)) * 3e5
+    path, span = orbit(seed), 6000.0
+    moment, tensor = rng.normal(size=3) * 0.1, np.diag(rng.uniform(1, 4, size=3)) * 3e5
     tensor[0, 1] = tensor[1, 0] = 2e4
     start = rng.normal(size=4)
     start, rates = start / np.linalg.norm(start), rng.normal(size=3) * 2e-3
@@ -94,15 +94,15 @@ def test_a_dipole_and_eddy_currents_move_a_body_as_dop853_says(seed):
 
 
 def test_a_detumbling_law_by_texts():
-    path, span, gain = orbit(), 20000.0, 2e3
+    path, span, gain = orbit(), 6000.0, 20.0
     start, rates = np.array([0.5, 0.5, -0.5, 0.5]), np.array([3e-3, -2e-3, 1e-3])
 
     def torque(b, w):
         u = b / np.linalg.norm(b)
-        return np.cross(gain * np.cross(u, w), b)
+        return np.cross(gain * np.cross(w, u), b)
 
     exact = integrated(path, torque, start, rates, span)
-    law = ["2e3*(b2*w3 - b3*w2)", "2e3*(b3*w1 - b1*w3)", "2e3*(b1*w2 - b2*w1)"]
+    law = ["20*(w2*b3 - w3*b2)", "20*(w3*b1 - w1*b3)", "20*(w1*b2 - w2*b1)"]
     motion = andoyer.Scene(andoyer.Body(BODY), start, rates, torques=andoyer.Torque.dipole(law, earth(path)), span=(0, span), tolerance=1e-10).solve()
     assert difference(motion.attitude(span), exact[:4]) < 1e-9
     assert np.linalg.norm(motion.angular_velocity(span)) < 0.9 * np.linalg.norm(rates)

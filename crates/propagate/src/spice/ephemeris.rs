@@ -88,7 +88,7 @@ impl TabulatedOrbit {
                 return Ok(table);
             }
             // More rows that bring nothing: the segments of the file have a jump, or its numbers are rounded.
-            if intervals >= MOST || (found > 0.5 * last && intervals > 64 * FIRST && intervals >= 2 * before) {
+            if intervals >= MOST || (found > 0.5 * last && intervals > 64 * FIRST && 2 * intervals >= 3 * before) {
                 return Err(EphemerisError::Coarse { error: request.error, rows: intervals + 1, found });
             }
             let growth = (found / request.error).powf(1.0 / ORDER).clamp(1.1, 2.0);
