@@ -261,9 +261,7 @@ class Field:
     """A magnetic field along an orbit, for `Torque.dipole` and `Torque.eddy`. It is made by one of the class methods below."""
 
     @classmethod
-    def dipole(
-        cls, *, radius: float, equatorial: float, orbit: Orbit, axis: ArrayLike = (0, 0, 1), rotation_rate: float = 0.0
-    ) -> Field:
+    def dipole(cls, *, radius: float, equatorial: float, orbit: Orbit, axis: ArrayLike = (0, 0, 1), rotation_rate: float = 0.0) -> Field:
         """The field of a dipole in the centre of a planet, B_e (R/r)³ (3 (m·r) r − m) with the unit vectors m of its moment and r of the position."""
     @classmethod
     def table(cls, times: ArrayLike | Any, vectors: ArrayLike) -> Field:

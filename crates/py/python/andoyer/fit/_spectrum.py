@@ -61,7 +61,7 @@ def grid(curve: Curve, ratios: tuple[float, float], periods: tuple[float, float]
         pairs = np.stack(np.meshgrid(first, second, indexing="ij"), axis=-1).reshape(-1, 2)
     else:
         alone = np.arange(FINE, 2 * first[-1] + second[-1] + 1, dtype=np.intp)[:, None] * [1, 0]
-        peaks = candidates(alone, left(curve, alone, np.array([(1, 0)])), PEAKS)[:, 0]
+        peaks = likeliest(alone, left(curve, alone, np.array([(1, 0)])), PEAKS)[:, 0]
         two = np.stack(np.meshgrid(peaks, peaks), axis=-1).reshape(-1, 2)
         terms = [np.array([a, b]) for a in TERMS for b in TERMS]
         pairs = np.unique(np.concatenate([np.rint(two @ np.linalg.inv(term).T) for term in terms if abs(np.linalg.det(term)) > 0.5]).astype(np.intp), axis=0)
@@ -121,7 +121,7 @@ def of_one_period(curve: Curve, periods: tuple[float, float]) -> float:
     return float(left(curve, pairs, SERIES, FINEST, FREE).min()) if len(pairs) else np.inf
 
 
-def candidates(pairs: NDArray[np.intp], chi_squares: Array, count: int) -> NDArray[np.intp]:
+def likeliest(pairs: NDArray[np.intp], chi_squares: Array, count: int) -> NDArray[np.intp]:
     """The best pairs that are `APART`, the best first."""
     left_over = chi_squares.copy()
     chosen: list[NDArray[np.intp]] = []
@@ -199,7 +199,7 @@ def pairs_of(curve: Curve, shapes: Shapes | None, periods: tuple[float, float], 
         pairs, terms = grid(curve, (float(shapes.ratios.min()), float(shapes.ratios.max())), periods), TERMS
     if not len(pairs):
         return np.zeros((0, 2))
-    chosen: Array = candidates(pairs, left(curve, pairs, terms), count) / (FINE * float(np.ptp(curve.times))) * [1, 0.5]
+    chosen: Array = likeliest(pairs, left(curve, pairs, terms), count) / (FINE * float(np.ptp(curve.times))) * [1, 0.5]
     return chosen
 
 
