@@ -409,8 +409,7 @@ impl EvolutionEnd {
         self.0.time
     }
 
-    /// How much earlier or later it may end. With ``members=`` of `Scene.evolve` the standard deviation of the members that end for the same reason. Otherwise, at the separatrix, the time in which the averages pass what they
-    /// leave out; None for other reasons.
+    /// How much earlier or later it may end. With ``members=`` of `Scene.evolve` the standard deviation of the members that end for the same reason. Otherwise, at the separatrix, the time in which the averages pass what they leave out; None for other reasons.
     #[getter]
     fn spread(&self) -> Option<f64> {
         self.1

@@ -38,7 +38,7 @@ def by_differences(body, make, parameters, step):
     return np.array(columns).T
 
 
-def held(body, make, parameters, names, step=1e-3, tolerance=1e-7):
+def held(body, make, parameters, names, step=1e-4, tolerance=1e-8):
     partials = solved(body, make(parameters)).partials([SPAN], with_respect_to=[("torque", 0)])
     assert partials.parameters == tuple(names)
     found = np.concatenate([partials.attitude[0], partials.angular_velocity[0]])
