@@ -358,7 +358,7 @@ class Torque:
     def truncation(self) -> float:
         """What the polynomials of a shape leave out: root mean square over all directions, relative to that of the torque; 0 for torques that are not made of shapes."""
     @property
-    def kind(self) -> Literal["constant", "damping", "rotor", "polynomial"]:
+    def kind(self) -> Literal["constant", "damping", "rotor", "polynomial", "dissipation"]:
         """The kind: "constant", "damping", "rotor", "polynomial" or "dissipation"."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
