@@ -18,7 +18,7 @@ use crate::values::immutable;
 
 /// A magnetic field along an orbit, for `Torque.dipole` and `Torque.eddy`. It is made by one of the class methods below.
 ///
-/// As a source of `Torque.polynomial` it has the direction of the field, and its size in the place of a distance: ``distance_powers={"b": -1}, reference_distances={"b": 1.0}`` multiplies by |B|.
+/// As a source of `Torque.polynomial` it has the direction of the field, and its size in the place of a distance: ``distance_powers={"b": -1}, reference_distances={"b": 1.0}`` multiplies by the size of the field.
 ///
 /// Examples
 /// --------

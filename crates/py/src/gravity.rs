@@ -156,7 +156,8 @@ pub(crate) fn with_gravity(
     let Some(gravity) = gravity else { return Ok(body) };
     let body = body.with_gravity(gravity.0.clone()).map_err(error::propagation)?;
     for (name, given, of_moments) in body.gravity_differences() {
-        let said = format!("gravity: {name} = {given:.5e}, but the moments and the inertia factor give {of_moments:.5e}");
+        let said =
+            format!("gravity: {name} = {given:.5e}, but the moments and the inertia factor give {of_moments:.5e}");
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(said)?, 1)?;
     }
     Ok(body)

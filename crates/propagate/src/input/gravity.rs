@@ -71,7 +71,7 @@ const DIFFERENT: f64 = 1e-3;
 /// let field = Gravity::new(&[("C30", -8.5e-6), ("C31", 3.05e-5), ("S31", 4.1e-6)], 1738.0)?.inertia_factor(0.393)?;
 /// let body = Body::new([0.999_37, 0.999_6, 1.0])?.with_gravity(field)?;
 /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 2.66e-6])?;
-/// let scene = Scene::new(body, state).orbit(Orbit::circular(2.66e-6)?.semi_major_axis(384_400.0)?);
+/// let scene = Scene::new(body, state).orbit(Orbit::new(2.66e-6, 0.0)?.semi_major_axis(384_400.0)?);
 /// assert_eq!(scene.span(0.0, 1e7).tolerance(1e-9).solve()?.plan().method(), Method::Integrated);
 /// # Ok::<(), andoyer_propagate::Error>(())
 /// ```

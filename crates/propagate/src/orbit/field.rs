@@ -19,7 +19,7 @@ use crate::numerics::phase::Phase;
 /// use andoyer_propagate::Orbit;
 /// use andoyer_propagate::torques::DipoleField;
 /// // Radius and semi-major axis in km, the field in tesla. The moment of the Earth points south.
-/// let orbit = Orbit::circular(1.1e-3)?.semi_major_axis(6871.0)?;
+/// let orbit = Orbit::new(1.1e-3, 0.0)?.semi_major_axis(6871.0)?;
 /// let field = DipoleField::new(orbit, 6371.2, 2.98e-5)?.axis([0.0, 0.17, -0.98])?.rotating(7.292_115e-5)?;
 /// let there = field.at(0.0, 0.0)?;
 /// let size = there.iter().map(|part| part * part).sum::<f64>().sqrt();
