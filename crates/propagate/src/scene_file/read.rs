@@ -141,7 +141,7 @@ impl SourceTable {
                 DisturbingBody::Tabulated(table) => SourcePath::Tabulated(table),
             },
             _ => {
-                let bound = "a direction, or an orbit with or without a field";
+                let bound = "a direction or an orbit";
                 return Err(Refusal::new("torque.source", &format!("must have {bound}"), bound));
             }
         };
