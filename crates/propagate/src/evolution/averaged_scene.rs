@@ -2,16 +2,18 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
 use super::equations::{AveragedTorques, Rates, Scratch, sorted_axes};
 use super::polhode_means::{ExcessPolhode, ModeFamily};
 use super::short_period::{ShortPeriod, sorted_attitude};
 use super::sources::MovingSource;
+use super::torus::{MomentumFrame, turned_axes};
 use super::weakness::Weakness;
 use crate::error::Error;
 use crate::input::options::{Averaging, Convention};
 use crate::input::scene::Scene;
+use crate::input::state::State;
 use crate::motion::solved::Periods;
 use crate::orbit::elements::Orbit;
 use crate::torque_free::mode::Mode;
@@ -122,6 +124,24 @@ impl AveragedScene {
         let short = ShortPeriod::new(&self.equations, self.equations.epoch, (&self.momentum, self.excess))?;
         let phases = (0..members).map(|member| EVEN.map(|step| TAU * ((member as f64 + 0.5) * step).fract()));
         Ok(phases.map(|[along, turn]| short.mean_of_angles((along, turn), &self.momentum)).collect())
+    }
+
+    /// The same scene in a state with these means, at some phases.
+    ///
+    /// # Errors
+    /// As [`AveragedScene::new`].
+    pub(super) fn near(&self, time: f64, momentum: &Vector3<f64>, excess: f64) -> Result<Self, Error> {
+        let polhode = ExcessPolhode::new(&self.equations.moments, self.equations.family, excess);
+        let g = polhode.direction((0.6, 0.8));
+        let frame = MomentumFrame::new(momentum, &Vector3::z());
+        let [first, second] = turned_axes(&polhode, &g);
+        let turn = frame.k * g.transpose() + frame.x * first.transpose() + frame.z * second.transpose();
+        let sort = sorted_axes(self.scene.body().moments()).1;
+        let rates = sort.transpose() * (g * momentum.norm()).component_div(&self.equations.moments);
+        let attitude = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn * sort));
+        let state = State { epoch: time, attitude: UnitQuaternion::new_normalize(*attitude), angular_velocity: rates };
+        let over = self.equations.sources.iter().any(|source| source.over_orbit);
+        Self::new(&self.scene.with_state(state), if over { Averaging::Orbit } else { Averaging::Spin })
     }
 
     /// Decides which sources are averaged over their orbits.

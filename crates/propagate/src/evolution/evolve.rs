@@ -100,14 +100,14 @@ impl Evolution {
         &self.members
     }
 
-    /// What is known of its error. It integrates the full equations over thirty rotations.
+    /// What is known of its error. It integrates the full equations over thirty rotations at the epoch and near each end.
     ///
     /// # Errors
     /// Those of [`Scene::solve`] for these rotations.
     pub fn plan(&self) -> Result<EvolutionPlan, Error> {
         let truncations = self.scene.asked_torques().iter().map(|torque| torque.truncation());
         let truncation = truncations.map(|part| part * part).sum::<f64>().sqrt();
-        let second_order = second_order(&self.problem)?;
+        let second_order = self.second_order()?;
         let epoch = self.problem.equations.epoch;
         let length = |path: &AveragedPath| {
             let change = |pair: &[Node]| {
@@ -125,6 +125,25 @@ impl Evolution {
             resonances.extend(passed);
         }
         Ok(EvolutionPlan { error_bound, truncation, second_order, resonances })
+    }
+
+    /// The larger rates of second order of windows at the epoch and near both ends of the paths.
+    fn second_order(&self) -> Result<[f64; 2], Error> {
+        let mut most = second_order(&self.problem)?;
+        let epoch = self.problem.equations.epoch;
+        for path in &self.paths {
+            let time = epoch + NEAR_END * (path.end.time - epoch);
+            if time == epoch {
+                continue;
+            }
+            let state = self.at(&[time])?[0];
+            let there = self.problem.near(time, &Vector3::from(state.momentum), state.excess);
+            // Next to an end the window may be refused: the other one stays.
+            if let Ok(found) = there.and_then(|there| second_order(&there)) {
+                most = [0, 1].map(|part| most[part].max(found[part]));
+            }
+        }
+        Ok(most)
     }
 
     /// The first and the last time of the span that it reaches.
@@ -180,6 +199,9 @@ impl Evolution {
     }
 }
 
+/// The place of the second window, of the way to the end.
+const NEAR_END: f64 = 0.9;
+
 /// The end of two ways: towards the end of the span, or towards its start if that is where it stops.
 fn end_of([backward, forward]: [EvolutionEnd; 2]) -> EvolutionEnd {
     if forward.reason == EndReason::Span && backward.reason != EndReason::Span { backward } else { forward }
@@ -193,7 +215,7 @@ pub struct EvolutionPlan {
     pub error_bound: f64,
     /// What the polynomials of shapes leave out, relative to the torque.
     pub truncation: f64,
-    /// Rates at which averages and full equations separate [1/time]: of the angular momentum over its size, and of ξ.
+    /// Rates at which averages and full equations separate [1/time], the largest that is measured: of the angular momentum over its size, and of ξ.
     pub second_order: [f64; 2],
     /// The resonances between rotation and wobble that are passed.
     pub resonances: Vec<PassedResonance>,
