@@ -200,8 +200,8 @@ impl Motion {
         };
         let torques: Vec<_> = given.asked_torques().iter().map(|torque| torque.turned(&NEXT_AXES)).collect();
         let mut scene = given.starting_from(given.body().about_next_axes()?, state).torques(torques);
-        if given.body().is_sphere() {
-            // No body exerts a torque on a sphere, and a table need not reach over the span.
+        if given.body().is_sphere() && given.body().gravity().is_none() {
+            // No body exerts a torque on a homogeneous sphere, and a table need not reach over the span.
             scene = scene.disturbing(Vec::<DisturbingBody>::new());
         }
         let default = match self.plan.method() {

@@ -169,7 +169,8 @@ impl TabulatedOrbit {
             target: target.code("target")?,
             observer: observer.code("observer")?,
             span: span_of(span)?,
-            gm: number("gm", gm)?,
+            // A quantity is converted to m³/s².
+            gm: number("gm", gm)? * if foreign::holds_units(gm)? { 1e-9 } else { 1.0 },
             frame: code,
             error: error.map_or(Ok(1e-9), |error| number("error", error))?,
             epoch: epoch.map_or(Ok(0.0), |epoch| seconds("epoch", epoch))?,

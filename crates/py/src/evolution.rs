@@ -18,9 +18,6 @@ use crate::order::whole_number;
 use crate::scene_class::Scene;
 use crate::values::immutable;
 
-/// Most members of an evolution.
-const MOST_MEMBERS: usize = 10_000;
-
 #[pymethods]
 impl Scene {
     /// The mean rates of angular momentum, excess of energy, spin period and obliquity at the epoch: torques averaged over the rotation (weak torques, section 1).
@@ -107,7 +104,7 @@ impl Scene {
             options = options.tolerance(array::number("tolerance", tolerance)?);
         }
         if let Some(members) = members {
-            options = options.members(whole_number("members", members, 0, MOST_MEMBERS, Kind::Input)?);
+            options = options.members(whole_number("members", members, 0, usize::MAX >> 1, Kind::Input)?);
         }
         let done = AtomicU32::new(0);
         let mut told = 0;

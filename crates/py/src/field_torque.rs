@@ -38,18 +38,16 @@ impl Torque {
     /// 'polynomial'
     #[classmethod]
     fn dipole(_class: &Bound<'_, PyType>, moment: &Bound<'_, PyAny>, field: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let (field, size) = field_of(field)?;
+        let field = field_of(field)?;
         let texts: PyResult<Vec<String>> = moment.extract();
         let made = match texts {
             Ok(texts) if !moment.is_instance_of::<pyo3::types::PyString>() => {
                 let three =
                     || PyTypeError::new_err("moment must be three numbers or three texts, one for each body axis");
                 let [first, second, third] = &texts[..] else { return Err(three()) };
-                let scaled = [first, second, third]
-                    .map(|text| if size == 1.0 { text.clone() } else { format!("{size:?}*({text})") });
-                Inner::steered_dipole(scaled.each_ref().map(String::as_str), field)
+                Inner::steered_dipole([first, second, third], field)
             }
-            _ => Inner::dipole(fixed::<3>("moment", moment)?.map(|part| part * size), field),
+            _ => Inner::dipole(fixed("moment", moment)?, field),
         };
         made.map(Self).map_err(error::propagation)
     }
@@ -61,7 +59,7 @@ impl Torque {
     /// Parameters
     /// ----------
     /// conductivity : float, or array_like of shape (3, 3)
-    ///     K, in moment × rate over the square of the field, in body axes. A thin spherical shell of the radius a, thickness d and conductivity σ has 2π/3 σ a⁴ d.
+    ///     K, in moment × rate over the square of the field, in body axes; positive definite, or it may add energy. A thin spherical shell of the radius a, thickness d and conductivity σ has 2π/3 σ a⁴ d.
     /// field : Field, or array_like of shape (3,)
     ///     An array is a uniform inertial field.
     ///
@@ -80,25 +78,23 @@ impl Torque {
     /// 0.40657
     #[classmethod]
     fn eddy(_class: &Bound<'_, PyType>, conductivity: &Bound<'_, PyAny>, field: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let (field, size) = field_of(field)?;
-        let tensor = if is_matrix("conductivity", conductivity) {
+        let field = field_of(field)?;
+        let tensor = if is_matrix("conductivity", conductivity) || conductivity.len().is_ok() {
             matrix("conductivity", conductivity)?
         } else {
             let scalar = number("conductivity", conductivity)?;
             std::array::from_fn(|i| std::array::from_fn(|k| if i == k { scalar } else { 0.0 }))
         };
-        let tensor = tensor.map(|row| row.map(|part| part * size * size));
         Inner::eddy(tensor, field).map(Self).map_err(error::propagation)
     }
 }
 
-/// The source of a field, and the size of a uniform one, which is no part of its direction.
-fn field_of(value: &Bound<'_, PyAny>) -> PyResult<(SourcePath, f64)> {
+/// The source of a field, or of a uniform one.
+fn field_of(value: &Bound<'_, PyAny>) -> PyResult<SourcePath> {
     if let Ok(field) = value.cast::<Field>() {
-        return Ok((field.get().0.source(), 1.0));
+        return Ok(field.get().0.source());
     }
     let uniform = fixed::<3>("field", value)
         .map_err(|_| PyTypeError::new_err(format!("field must be a Field or three numbers, not {}", kind(value))))?;
-    let [x, y, z] = uniform;
-    Ok((SourcePath::Direction(uniform), x.hypot(y).hypot(z)))
+    Ok(SourcePath::Direction(uniform))
 }

@@ -232,6 +232,9 @@ pub struct EvolveOptions<'a> {
     done: &'a AtomicU32,
 }
 
+/// Most members of an evolution.
+const MOST_MEMBERS: usize = 10_000;
+
 static UNREAD: AtomicU32 = AtomicU32::new(0);
 
 impl Default for EvolveOptions<'_> {
@@ -312,6 +315,10 @@ impl Scene {
         let tolerance = options.tolerance;
         if !(tolerance.is_finite() && tolerance > 0.0) {
             return Err(Error::Tolerance { value: tolerance });
+        }
+        if options.members > MOST_MEMBERS {
+            let (value, bound) = (options.members as f64, "at most 10000");
+            return Err(Error::Number { argument: "members", index: None, value, bound });
         }
         let problem = AveragedScene::new(self, options.average)?;
         let unit = problem.momentum.norm();

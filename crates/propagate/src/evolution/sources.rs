@@ -7,10 +7,14 @@ use nalgebra::Vector3;
 use crate::error::Error;
 use crate::input::torque::SourcePath;
 use crate::orbit::elements::Orbit;
+use crate::orbit::field::DipoleField;
 use crate::orbit::table::TabulatedOrbit;
 
 /// Points of the true anomaly for a fall that is no integer power of 2 or more.
 const MANY: usize = 128;
+/// Places on an orbit, and turns of the moment, of a field.
+const PLACES: usize = 48;
+const TURNS: usize = 12;
 /// The largest degree of a torque.
 const DEGREE: usize = 8;
 
@@ -60,6 +64,7 @@ impl MovingSource {
     pub(super) fn ellipse(&self) -> Option<&Orbit> {
         match &self.path {
             SourcePath::Orbit(orbit) if !orbit.is_hyperbola() => Some(orbit),
+            SourcePath::Field(field) if !field.orbit().is_hyperbola() => Some(field.orbit()),
             _ => None,
         }
     }
@@ -85,7 +90,10 @@ impl MovingSource {
         if self.over_orbit
             && let Some(orbit) = self.ellipse()
         {
-            self.around(orbit, (epoch, time), out);
+            match &self.path {
+                SourcePath::Field(field) => self.around_field(field, (epoch, time), out),
+                _ => self.around(orbit, (epoch, time), out),
+            }
             return Ok(());
         }
         let place = match &self.path {
@@ -98,6 +106,28 @@ impl MovingSource {
         let weight = if self.power == 0.0 { 1.0 } else { (self.reference / distance).powf(self.power) };
         out.push(View { direction: place / distance, weight, zonal: false });
         Ok(())
+    }
+
+    /// The mean over the orbit and over the turn of the moment, whose rates have no common multiple.
+    fn around_field(&self, field: &DipoleField, (epoch, time): (f64, f64), out: &mut Vec<View>) {
+        let orbit = field.orbit();
+        let [to_pericentre, ahead, _] = orbit.axes_after(epoch, time - epoch);
+        let e = orbit.eccentricity();
+        let square = (1.0 - e) * (1.0 + e);
+        let turns = if field.rotation_rate() == 0.0 { 1 } else { TURNS };
+        for j in 0..PLACES {
+            let (sine, cosine) = (TAU * (j as f64 + 0.5) / PLACES as f64).sin_cos();
+            // dM/2π = (r/a)² df/(2π η)
+            let radius = square / (1.0 + e * cosine);
+            let share = radius * radius / square.sqrt() / (PLACES * turns) as f64;
+            for turn in 0..turns {
+                let angle = TAU * turn as f64 / turns as f64;
+                let vector = field.of(&(to_pericentre * cosine + ahead * sine), radius, angle);
+                let size = vector.norm();
+                let weight = (self.reference / size).powf(self.power) * share;
+                out.push(View { direction: vector / size, weight, zonal: false });
+            }
+        }
     }
 
     /// The mean over the orbit: exact in one view for p = 2.

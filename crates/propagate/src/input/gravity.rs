@@ -75,7 +75,7 @@ const DIFFERENT: f64 = 1e-3;
 /// assert_eq!(scene.span(0.0, 1e7).tolerance(1e-9).solve()?.plan().method(), Method::Integrated);
 /// # Ok::<(), andoyer_propagate::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Gravity {
     coefficients: Vec<(String, f64)>,
     radius: f64,
@@ -84,6 +84,14 @@ pub struct Gravity {
     mass_radius_squared: f64,
     /// The rotation from components about the axes of the scene to those of the coefficients.
     turn: Square,
+}
+
+/// The same coefficients, radius and inertia factor about the same axes; M R² belongs to the body.
+impl PartialEq for Gravity {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.coefficients, self.radius, self.inertia_factor, &self.turn)
+            == (&other.coefficients, other.radius, other.inertia_factor, &other.turn)
+    }
 }
 
 impl Gravity {
@@ -108,7 +116,12 @@ impl Gravity {
         if !(radius > 0.0 && radius.is_finite()) {
             return Err(refused("radius", radius, "positive and finite"));
         }
-        let coefficients = coefficients.iter().map(|(name, value)| ((*name).to_owned(), value + 0.0)).collect();
+        // In one order, so that equal fields are equal.
+        let names = OF_INERTIA.into_iter().chain(HARMONICS.iter().map(|(name, _)| *name));
+        let given = |name: &'static str| {
+            coefficients.iter().find(|(own, _)| *own == name).map(|(_, value)| (name.to_owned(), value + 0.0))
+        };
+        let coefficients = names.filter_map(given).collect();
         Ok(Self { coefficients, radius, inertia_factor: None, mass_radius_squared: f64::NAN, turn: UNIT })
     }
 
@@ -145,6 +158,9 @@ impl Gravity {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(Error::Positive { argument, value });
             }
+        }
+        if !(radius > 0.0 && radius.is_finite()) {
+            return Err(refused("radius", radius, "positive and finite"));
         }
         let [a, b, c] = semi_axes.map(|axis| axis / radius);
         let (zonal, sectoral) = ((2.0 * c * c - a * a - b * b) / 10.0, (a * a - b * b) / 20.0);

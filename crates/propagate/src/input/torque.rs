@@ -218,7 +218,7 @@ impl Torque {
         Ok(Self::Polynomial(Arc::new(PolynomialTorque { texts, sources, terms, turn, truncation: 0.0 })))
     }
 
-    /// m × B of a magnetic moment [unit of the torque over that of the field] in a field: [`SourcePath::Field`], or a table of its vectors. A direction is a uniform field of the size 1.
+    /// m × B of a magnetic moment [unit of the torque over that of the field] in a field: [`SourcePath::Field`], a table of its vectors, or a vector, which is a uniform field.
     ///
     /// # Errors
     /// - [`Error::Torque`] for NaN or an infinity.
@@ -234,6 +234,10 @@ impl Torque {
     /// # Errors
     /// As [`Torque::polynomial`].
     pub fn steered_dipole(moment: [&str; 3], field: SourcePath) -> Result<Self, Error> {
+        let names = ["b1", "b2", "b3", "w1", "w2", "w3"].map(str::to_owned);
+        for text in moment {
+            parsed(text, &names)?;
+        }
         Self::of_field(cross(moment.map(str::to_owned), FIELD.map(str::to_owned)), field, 1.0)
     }
 
@@ -257,8 +261,17 @@ impl Torque {
 
     /// Polynomials in the direction of a field, times a power of its size.
     fn of_field(texts: [String; 3], field: SourcePath, power: f64) -> Result<Self, Error> {
-        // A uniform field has its size in the texts.
-        let power = if matches!(field, SourcePath::Direction(_)) { 0.0 } else { -power };
+        let (texts, power) = match field {
+            // A uniform field has its size in the texts.
+            SourcePath::Direction([x, y, z]) => {
+                let size = x.hypot(y).hypot(z).powf(power);
+                if !size.is_finite() {
+                    return Err(refused("field", format!("{:?}", [x, y, z]), "finite, with a square that is a double"));
+                }
+                (texts.map(|text| format!("({size:?})*({text})")), 0.0)
+            }
+            _ => (texts, -power),
+        };
         let source = TorqueSource::new("b", field).falling(power, 1.0);
         Self::polynomial(texts.each_ref().map(String::as_str), vec![source])
     }

@@ -64,7 +64,7 @@ impl PolynomialTorque {
         }
         let moment = [-rows[1][2], -rows[2][0], -rows[0][1]];
         let antisymmetric = (0..3).all(|i| (0..3).all(|k| rows[i][k] == -rows[k][i]));
-        (in_field && antisymmetric && moment != [0.0; 3]).then_some(moment)
+        (in_field && antisymmetric).then_some(moment)
     }
 
     fn factor_and_coefficients(&self, whole: &Torque) -> Vec<(String, Torque)> {

@@ -27,7 +27,7 @@ impl FieldSeries {
         Self {
             direction: Conic::new(field.orbit(), at, (1.0, -1.0)),
             fall: Conic::new(field.orbit(), at, (field.strength(1.0) / field.equatorial(), -3.0)),
-            axis: field.moment_axis(),
+            axis: field.unit_axis(),
             phase: field.phase(epoch),
             rate: scaled(field.rotation_rate(), -exponent),
             exponent,

@@ -33,7 +33,7 @@ pub struct DipoleField {
     ratio: f64,
     radius: f64,
     equatorial: f64,
-    /// A unit vector at time 0.
+    /// At time 0, as it was given.
     axis: [f64; 3],
     rotation_rate: f64,
 }
@@ -73,7 +73,7 @@ impl DipoleField {
         if !(vector.iter().all(|part| part.is_finite()) && largest > 0.0) {
             return Err(refused("axis", format!("{axis:?}"), "a finite vector other than 0"));
         }
-        Ok(Self { axis: (vector / largest).normalize().map(|part| part + 0.0).into(), ..self })
+        Ok(Self { axis: axis.map(|part| part + 0.0), ..self })
     }
 
     /// Sets the rate at which the moment turns about inertial axis 3 [rad/time].
@@ -102,9 +102,15 @@ impl DipoleField {
         self.equatorial
     }
 
-    /// The direction of the moment at time 0: a unit vector.
+    /// The direction of the moment at time 0, as it was given.
     pub fn moment_axis(&self) -> [f64; 3] {
         self.axis
+    }
+
+    /// The same as a unit vector.
+    pub(crate) fn unit_axis(&self) -> [f64; 3] {
+        let vector = Vector3::from(self.axis);
+        (vector / vector.amax()).normalize().into()
     }
 
     /// The rate of the moment about inertial axis 3.
@@ -119,10 +125,15 @@ impl DipoleField {
     pub fn at(&self, epoch: f64, elapsed: f64) -> Result<[f64; 3], Error> {
         let place = self.orbit.relative_position(epoch, elapsed)?;
         let distance = place.amax() * (place / place.amax()).norm();
-        let (r, [x, y, z]) = (place / distance, self.axis);
-        let (sine, cosine) = self.phase(epoch).angle((elapsed, 0.0)).sin_cos();
+        Ok(self.of(&(place / distance), distance, self.phase(epoch).angle((elapsed, 0.0))).into())
+    }
+
+    /// The field in a direction at a distance in semi-major axes, with the moment turned by an angle.
+    pub(crate) fn of(&self, r: &Vector3<f64>, distance: f64, turn: f64) -> Vector3<f64> {
+        let [x, y, z] = self.unit_axis();
+        let (sine, cosine) = turn.sin_cos();
         let m = Vector3::new(cosine * x - sine * y, sine * x + cosine * y, z);
-        Ok(((r * (3.0 * m.dot(&r)) - m) * self.strength(distance)).into())
+        (r * (3.0 * m.dot(r)) - m) * self.strength(distance)
     }
 
     /// B_e (R/r)³ at a distance in semi-major axes.

@@ -18,7 +18,7 @@ pub enum Parameter {
     Attitude,
     /// The initial angular velocity in body components.
     AngularVelocity,
-    /// The three moments as given; for a body with a tensor its elements I11, I22, I33, I12, I13, I23.
+    /// The three moments as given; for a body with a tensor its elements I11, I22, I33, I12, I13, I23. M R² of a gravity field is held.
     Moments,
     /// The six elements of the orbit of a disturbing body, by its index: mean motion, eccentricity, time of pericentre, inclination, node, argument of pericentre.
     /// The attraction or the mass fraction, whichever the orbit was given with, is held.
@@ -101,6 +101,13 @@ impl Motion {
                 continue;
             }
             let mut suffix = String::new();
+            let of_orbit = matches!(parameter, Parameter::Orbit(_) | Parameter::Attraction(_));
+            if of_orbit && self.scene().body().gravity().is_some() {
+                let bound =
+                    "absent for a body with a gravity field, whose torques of degree 3 and 4 depend on the orbit too"
+                        .to_owned();
+                return Err(Error::Parameter { value: "\"orbit\" or \"attraction\"".to_owned(), bound });
+            }
             if let Parameter::Orbit(index) | Parameter::Attraction(index) = *parameter {
                 let bound = match bodies.get(index) {
                     Some(DisturbingBody::Orbit(_)) => None,

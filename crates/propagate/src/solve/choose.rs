@@ -116,7 +116,7 @@ fn choice(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Choi
         Ok(Choice::Integrate(Box::new(Integration { scene, reason, by_theory: None, locked: None })))
     };
     match (scene.asked_method(), beyond_theory(&scene)) {
-        (Method::Libration, Some(reason)) if !scene.asked_torques().is_empty() => Err(Error::NoLibration { reason }),
+        (Method::Libration, Some(reason)) if !scene.acting_torques().is_empty() => Err(Error::NoLibration { reason }),
         (Method::Libration, _) => libration::motion(scene, tables, stop).map(Choice::from),
         (Method::Integrated, _) => integration(scene, String::new()),
         (Method::Auto, Some(reason)) => integration(scene, format!("theory: {reason}")),
