@@ -53,7 +53,7 @@ impl Scene {
     /// span : (float, float), optional
     ///     First and last time; by default the span of the scene. The way from the epoch to a span beside it belongs to the evolution.
     /// average : {"auto", "orbit", "spin"}, optional
-    ///     "orbit" averages torques of sources on ellipses over their orbits, too: exact in one term if they fall with the square of the distance. Sources on hyperbolas and in tables are followed. "spin" averages over the rotation alone and
+    ///     "orbit" averages torques of sources on ellipses over their orbits, too: exact in one term if they fall with the square of the distance. Sources on hyperbolas and in tables are followed; the field of a dipole is averaged over its orbit and over the turn of its moment. "spin" averages over the rotation alone and
     ///     follows all sources. "auto" averages over orbits if an orbit changes direction and excess by less than 0.01.
     /// tolerance : float, optional
     ///     Largest relative error of a step of the integration. The averages themselves leave out terms of the second order in the torque.

@@ -54,7 +54,7 @@ impl Torque {
 
     /// (K(ω × B)) × B of eddy currents in a conducting body, with the magnetic tensor K (N. Ortiz Gómez and S. J. I. Walker 2015): it brakes the rotation across the field.
     ///
-    /// The angular velocity is relative to inertial space: the field must turn slowly against the body.
+    /// The angular velocity is relative to inertial space: the field must turn slowly against the body. `partials` has its factor, by which a scalar K is known.
     ///
     /// Parameters
     /// ----------

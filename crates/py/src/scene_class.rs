@@ -7,7 +7,7 @@ use crate::foreign::Calendar;
 
 /// A body, its state at an epoch, and the requested accuracy of the solution.
 ///
-/// The gravity of point masses acts on the body, and torques that you state: there is no built-in magnetic torque, no drag and no control.
+/// The gravity of point masses acts on the body, and torques that you state: there is no drag and no control.
 ///
 /// Time, moments and angular velocity are in any consistent set of units; angles are in rad.
 ///

@@ -116,6 +116,8 @@ def test_members_spread_the_end_and_progress_is_told():
     assert scene.evolve((0, 1e5)).members == []
     with pytest.raises(andoyer.InputError, match="members"):
         scene.evolve((0, 1e5), members=-1)
+    with pytest.raises(andoyer.InputError, match="10000"):
+        scene.evolve((0, 1e5), members=10001)
 
 
 def test_an_exception_of_progress_ends_the_evolution():

@@ -142,6 +142,9 @@ def test_fields_and_their_torques_are_kept_by_files_and_pickles(tmp_path):
     assert andoyer.Scene.from_toml(tmp_path / "scene.toml") == scene
     table = andoyer.Field.table(np.arange(9.0), np.ones((9, 3)))
     assert pickle.loads(pickle.dumps(table)) == table
+    for axis in np.random.default_rng(1).normal(size=(50, 3)):
+        field = andoyer.Field.dipole(radius=RADIUS, equatorial=EQUATORIAL, axis=axis, orbit=orbit())
+        assert pickle.loads(pickle.dumps(field)) == field
 
 
 @pytest.mark.parametrize(
@@ -173,3 +176,31 @@ def test_bad_torques_are_refused():
         andoyer.Torque.dipole(["b1", "b2"], earth(orbit()))
     with pytest.raises(andoyer.InputError, match="origin"):
         andoyer.Field.table(np.arange(9.0), np.zeros((9, 3)))
+
+
+def test_the_drift_over_an_orbit_is_the_mean_of_its_places():
+    path = andoyer.Orbit(1e-4, 0.3, semi_major_axis=10.0, inclination=0.7, argument_of_pericentre=0.4)
+    body, state = andoyer.Body([1.0, 1.5, 2.0]), ([0.1, 0.2, -0.1, 0.9], [0.2, 0.3, 1.0])
+    state = (np.array(state[0]) / np.linalg.norm(state[0]), state[1])
+    field = andoyer.Field.dipole(radius=7.0, equatorial=1.0, axis=(0.3, 0.1, -1), orbit=path)
+    torque = andoyer.Torque.eddy(1e-5, field)
+    mean = np.mean(
+        [andoyer.Scene(body, *state, epoch=time, torques=[torque]).drift(average="spin").momentum for time in np.arange(64) * 2 * np.pi / 1e-4 / 64], axis=0
+    )
+    found = andoyer.Scene(body, *state, torques=[torque]).drift(average="orbit").momentum
+    assert np.allclose(found, mean, rtol=0, atol=1e-9 * np.linalg.norm(mean))
+    # A moment that turns is averaged over its turn, too.
+    turning = andoyer.Field.dipole(radius=7.0, equatorial=1.0, axis=(0.3, 0.1, -1), orbit=path, rotation_rate=3.0e-3)
+    times = (np.arange(64)[:, None] * 2 * np.pi / 1e-4 / 64 + np.arange(12)[None] * 2 * np.pi / 3e-3 / 12).ravel()
+    torque = andoyer.Torque.eddy(1e-5, turning)
+    mean = np.mean([andoyer.Scene(body, *state, epoch=time, torques=[torque]).drift(average="spin").momentum for time in times], axis=0)
+    found = andoyer.Scene(body, *state, torques=[torque]).drift(average="orbit").momentum
+    assert np.allclose(found, mean, rtol=0, atol=2e-2 * np.linalg.norm(mean))
+
+
+def test_the_texts_of_a_moment_are_checked_by_themselves():
+    for texts in (["w1)+(w2", "0", "0"], ["", "", ""], ["x", "0", "0"]):
+        with pytest.raises(andoyer.InputError):
+            andoyer.Torque.dipole(texts, [0, 0, 2.0])
+    with pytest.raises(andoyer.InputError, match="conductivity"):
+        andoyer.Torque.eddy([1, 2, 3], [0, 0, 1.0])

@@ -140,6 +140,23 @@ def test_bad_fields_are_refused(coefficients, radius, name):
         andoyer.Gravity(coefficients, radius)
 
 
+def test_a_sphere_with_a_field_is_verified_and_no_libration():
+    field = andoyer.Gravity({"C31": 0.02, "C30": 0.1}, 3.0, inertia_factor=0.4)
+    assert field == pickle.loads(pickle.dumps(field)) == andoyer.Gravity({"C30": 0.1, "C31": 0.02}, 3.0, inertia_factor=0.4)
+    orbit = andoyer.Orbit(0.02, 0.1, semi_major_axis=10.0, inclination=1.0)
+    motion = andoyer.Scene(andoyer.Body([1, 1, 1], gravity=field), [0, 0, 0, 1], [0.3, -0.2, 0.5], orbit=orbit, span=(0, 20), tolerance=1e-11).solve()
+    assert not motion.verify().refuted
+    with pytest.raises(andoyer.TheoryError, match="gravity field"):
+        andoyer.Scene(
+            andoyer.Body([1, 1.4, 2], gravity=field),
+            [0, 0, 0, 1],
+            [0, 0, 1.001],
+            orbit=andoyer.Orbit(1.0, semi_major_axis=10.0),
+            span=(0, 20),
+            method="libration",
+        ).solve()
+
+
 def test_an_orbit_without_a_length_is_refused_and_files_and_pickles_keep_the_field(tmp_path):
     field = andoyer.Gravity({"C30": -8.5e-6, "S31": 4.1e-6}, 1738.0, inertia_factor=0.393)
     body = andoyer.Body([0.99937, 0.9996, 1.0], gravity=field)

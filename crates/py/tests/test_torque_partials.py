@@ -58,7 +58,9 @@ def test_constant_torques_rotors_and_dampings(body):
 def test_dipoles_polynomials_and_their_factor(body):
     path = andoyer.Orbit(0.02, 0.1, semi_major_axis=7000.0, inclination=1.0)
     field = andoyer.Field.dipole(radius=6371.2, equatorial=1.0, axis=(0.1, 0, -1), orbit=path, rotation_rate=1e-3)
-    held(body, lambda p: andoyer.Torque.dipole(p, field), [2e-2, 1e-2, -3e-2], ["dipole_1", "dipole_2", "dipole_3"])
+    for given in (field, [0.3, 0.1, -2.0]):
+        for moment in ([2e-2, 1e-2, -3e-2], [0.0, 0.0, 0.0]):
+            held(body, lambda p, given=given: andoyer.Torque.dipole(p, given), moment, ["dipole_1", "dipole_2", "dipole_3"])
 
     def polynomial(p):
         factor, first, second = p
@@ -73,6 +75,14 @@ def test_a_constant_torque_on_a_sphere_in_closed_form():
     partials = motion.partials([30.0], with_respect_to=["torque"])
     assert partials.attitude[0, 2, 2] == pytest.approx(30**2 / 4, rel=1e-13)
     assert partials.angular_velocity[0, 2, 2] == pytest.approx(15, rel=1e-13)
+
+
+def test_a_gravity_field_has_no_columns_of_its_orbit():
+    body = andoyer.Body([1, 1.4, 2], gravity=andoyer.Gravity({"C30": 0.1}, 3.0, inertia_factor=0.4))
+    motion = andoyer.Scene(body, ATTITUDE, STATE[1], orbit=andoyer.Orbit(0.02, 0.1, semi_major_axis=10.0), span=(0, 20)).solve()
+    with pytest.raises(andoyer.InputError, match="gravity field"):
+        motion.partials([5.0], with_respect_to=["orbit"])
+    assert motion.partials([5.0], with_respect_to=["attitude"]).attitude.shape == (1, 3, 3)
 
 
 def test_several_torques_need_an_index_and_inner_friction_has_no_parameters():
