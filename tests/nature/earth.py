@@ -89,7 +89,8 @@ def integrated(years: float, start: Array) -> tuple[Array, Array, float]:
     attitude = [-np.sin(epsilon / 2) * np.cos(psi / 2), np.sin(epsilon / 2) * np.sin(psi / 2), -np.cos(epsilon / 2) * np.sin(psi / 2), np.cos(epsilon / 2) * np.cos(psi / 2)]
     bodies = [table(name, "EARTH", span, frame="ECLIPJ2000", error=1e-11) for name in ("MOON", "SUN")]
     earth = andoyer.Body([1 - ELLIPTICITY, 1 - ELLIPTICITY, 1.0])
-    motion = andoyer.Scene(earth, attitude, [0, 0, ROTATION], orbit=bodies, span=span, tolerance=1e-11).solve()
+    tolerance = 1e-11 * max(1, years / 40)
+    motion = andoyer.Scene(earth, attitude, [0, 0, ROTATION], orbit=bodies, span=span, tolerance=tolerance).solve()
     times = np.arange(*span, STEP)
     return times, motion.rotation(times).as_matrix()[:, :, 2], motion.plan.error_bound / ARCSECOND
 
