@@ -179,6 +179,7 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 
 nature: $(VENV)/kernels  ## a rigid Earth and Moon at DE440 positions beside REN-2000 and DE421: docs/data/nature-*.csv and their pictures; a quarter of an hour
 	$(BIN)/python tests/nature/moon.py
+	$(BIN)/python tests/nature/moon_terms.py
 	$(BIN)/python tests/nature/earth.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes and of 1000 tensors against their bounds; two minutes

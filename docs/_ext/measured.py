@@ -295,6 +295,12 @@ def nature_moon() -> list[str]:
     return markdown(header, ([row[name] for name in ("model", "years", "axis_1", "axis_2", "axis_3", "angle")] for row in read("nature-moon.csv")))
 
 
+def nature_moon_terms() -> list[str]:
+    """The largest angle that a table of the Moon's orientation leaves, by its number of terms."""
+    terms = [row for row in read("nature-moon-terms.csv") if row["left"] != "–"]
+    return markdown(["terms", 'largest angle left, 1950 to 2050 ["]'], ([str(count), terms[count - 1]["left"]] for count in range(10, len(terms) + 1, 10)))
+
+
 def nature_earth() -> list[str]:
     """Terms of the nutation of a rigid Earth, published and found: the main ones over the longest span."""
     rows = read("nature-earth.csv")
@@ -331,6 +337,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "light-curves": light_curves,
     "nature-earth": nature_earth,
     "nature-moon": nature_moon,
+    "nature-moon-terms": nature_moon_terms,
     "nature-nutation": nature_nutation,
     "rivals-gradient": rivals_gradient,
     "rivals-integration": rivals_integration,

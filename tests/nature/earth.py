@@ -86,7 +86,12 @@ def integrated(years: float, start: Array) -> tuple[Array, Array, float]:
     """Times, figure axes in ECLIPJ2000, and the bound of the integration ["]. `start`: Δψ and Δε at J2000 [µas]."""
     span = (-years / 2 * YEAR, years / 2 * YEAR)
     psi, epsilon = start * MICRO + [0, OBLIQUITY]
-    attitude = [-np.sin(epsilon / 2) * np.cos(psi / 2), np.sin(epsilon / 2) * np.sin(psi / 2), -np.cos(epsilon / 2) * np.sin(psi / 2), np.cos(epsilon / 2) * np.cos(psi / 2)]
+    attitude = [
+        -np.sin(epsilon / 2) * np.cos(psi / 2),
+        np.sin(epsilon / 2) * np.sin(psi / 2),
+        -np.cos(epsilon / 2) * np.sin(psi / 2),
+        np.cos(epsilon / 2) * np.cos(psi / 2),
+    ]
     bodies = [table(name, "EARTH", span, frame="ECLIPJ2000", error=1e-11) for name in ("MOON", "SUN")]
     earth = andoyer.Body([1 - ELLIPTICITY, 1 - ELLIPTICITY, 1.0])
     tolerance = 1e-11 * max(1, years / 40)
@@ -95,13 +100,17 @@ def integrated(years: float, start: Array) -> tuple[Array, Array, float]:
     return times, motion.rotation(times).as_matrix()[:, :, 2], motion.plan.error_bound / ARCSECOND
 
 
-def angles_of_date(times: Array, axis: Array) -> Array:
-    """ψ and ε of date [µas], shape (2, n)."""
+def ecliptic_pole(times: Array) -> Array:
+    """The pole of the ecliptic of date in ECLIPJ2000, shape (n, 3): P_A and Q_A of Capitaine, Wallace and Chapront 2003, IAU 2006."""
     t = times / CENTURY
-    # Capitaine, Wallace and Chapront 2003, IAU 2006.
     p = (4.199094 * t + 0.1939873 * t**2 - 0.00022466 * t**3) * ARCSECOND
     q = (-46.811015 * t + 0.0510283 * t**2 + 0.00052413 * t**3) * ARCSECOND
-    pole = np.stack([p, -q, np.sqrt(1 - p**2 - q**2)], axis=1)
+    return np.stack([p, -q, np.sqrt(1 - p**2 - q**2)], axis=1)
+
+
+def angles_of_date(times: Array, axis: Array) -> Array:
+    """ψ and ε of date [µas], shape (2, n)."""
+    pole = ecliptic_pole(times)
     equinox = np.cross(axis, pole)
     sine, cosine = np.linalg.norm(equinox, axis=1), np.einsum("ij,ij->i", axis, pole)
     # Axis 1 projected on the ecliptic of date, and the direction a quarter ahead.
@@ -165,7 +174,9 @@ def summary(rows: list[dict[str, str]]) -> bool:
             allowed = np.array([max(100.0, 1e-3 * abs(float(row[f"{name}_uas"]))) for row in here])
             off = [row["argument"] for row, far in zip(here, apart > allowed) if far]
             kept &= not {row["argument"] for row in here if row["main"] == "yes"} & set(off)
-            print(f"{years} years, {name}: median {np.median(apart):.2f} µas, largest {apart.max():.1f}, {np.sum(apart <= 100)} of {len(here)} within 100 µas, off: {off}")
+            print(
+                f"{years} years, {name}: median {np.median(apart):.2f} µas, largest {apart.max():.1f}, {np.sum(apart <= 100)} of {len(here)} within 100 µas, off: {off}"
+            )
     return kept
 
 

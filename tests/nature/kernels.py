@@ -2,6 +2,7 @@
 
 import csv
 import importlib.util
+import itertools
 import sys
 from pathlib import Path
 
@@ -40,7 +41,7 @@ def table(target: str, observer: str, span: tuple[float, float], *, frame: str =
     """The orbit of `target` about `observer` from DE440 over the span [s of TDB past J2000], within this part of its distance."""
     edges = np.linspace(*span, int(np.ceil((span[1] - span[0]) / LONGEST)) + 1)
     pieces = [
-        andoyer.TabulatedOrbit.from_spk(ephemeris(), target, observer, piece, gm=GM[target], frame=frame, error=error) for piece in zip(edges[:-1], edges[1:])
+        andoyer.TabulatedOrbit.from_spk(ephemeris(), target, observer, piece, gm=GM[target], frame=frame, error=error) for piece in itertools.pairwise(edges)
     ]
     times, positions, velocities = (
         np.concatenate([getattr(piece, name)[bool(k) :] for k, piece in enumerate(pieces)]) for name in ("times", "positions", "velocities")
