@@ -9,7 +9,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost libration-reach bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
+.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost libration-reach nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -177,6 +177,11 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 	$(BIN)/python benches/long_spans.py --output docs/data/gravity-spans.csv
 	$(BIN)/python benches/gravity.py
 
+nature: $(VENV)/kernels  ## a rigid Earth and Moon at DE440 positions beside REN-2000 and DE421: docs/data/nature-*.csv and their pictures; a quarter of an hour
+	$(BIN)/python tests/nature/moon.py
+	$(BIN)/python tests/nature/moon_terms.py
+	$(BIN)/python tests/nature/earth.py
+
 bounds: $(VENV)/installed  ## errors of 3000 random scenes and of 1000 tensors against their bounds; two minutes
 	$(BIN)/python tests/stress/bounds.py
 	$(BIN)/python tests/stress/tensors.py
@@ -249,6 +254,11 @@ docs-test: docs  ## the pages as files, and in a headless Chromium of this machi
 
 $(VENV)/documented: docs/requirements.txt $(VENV)/installed
 	$(INSTALL) --requirement $<
+	touch $@
+
+# Of the packages only their files are used: an ephemeris of 120 MB, and the orientation of the Moon.
+$(VENV)/kernels: tests/nature/requirements.txt $(VENV)/installed
+	$(INSTALL) --no-deps --requirement $<
 	touch $@
 
 $(VENV)/tested: crates/py/requirements-test.txt $(VENV)/ready

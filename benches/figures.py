@@ -2,7 +2,7 @@
 
     python benches/figures.py                    `make figures`: each target of TARGETS, then a row for each of its files in docs/data/provenance.csv; needs a clean commit
     python benches/figures.py bench sweep        some of the targets
-    python benches/figures.py --check            exit status 1 for an empty cell, a file that is not the measured one, several processors, or a commit that is not clean or not the same (counts have their own)
+    python benches/figures.py --check            exit status 1 for an empty cell, a file that is not the measured one, several processors, or a commit that is not clean or not the same (counts and angles have their own)
     python benches/figures.py --check --fresh    and for files that were measured with other sources than those of today
 
 `sources` is a hash of the crates' Rust and Python sources without Rust's comments, `digest` one of the file.
@@ -33,9 +33,10 @@ TARGETS = {
     "gravity": [f"gravity-{name}.csv" for name in ("cases", "levels", "bounds", "climb", "table", "spans")] + ["averaged-bodies.csv"],
     "stress": ["stress.csv"],
     "libration-reach": ["libration-reach.csv"],
+    "nature": ["nature-earth.csv", "nature-moon.csv", "nature-moon-terms.csv"],
 }
-# Counts of scenes, which the clock changes only where an order takes seconds: they may be of another commit than the others.
-COUNTS = {"libration-reach"}
+# Counts of scenes, which the clock changes only where an order takes seconds, and angles: they may be of another commit than the others.
+COUNTS = {"libration-reach", "nature"}
 SOURCES = ("crates/*/src/**/*.rs", "crates/py/python/**/*.py")
 PAGES = ("README.md", "benches/README.md", "crates/py/README.md", "docs/")
 """What the targets write."""

@@ -289,6 +289,40 @@ def light_curves() -> list[str]:
     return markdown(rows[0], (row.values() for row in rows))
 
 
+def nature_moon() -> list[str]:
+    """Largest differences of a rigid Moon from the orientation of DE421, by model and span."""
+    header = ["model", "years", 'about axis 1 ["]', 'axis 2 ["]', 'axis 3 ["]', 'whole angle ["]']
+    return markdown(header, ([row[name] for name in ("model", "years", "axis_1", "axis_2", "axis_3", "angle")] for row in read("nature-moon.csv")))
+
+
+def nature_moon_terms() -> list[str]:
+    """The largest angle that a table of the Moon's orientation leaves, by its number of terms."""
+    terms = [row for row in read("nature-moon-terms.csv") if row["left"] != "–"]
+    return markdown(["terms", 'largest angle left, 1950 to 2050 ["]'], ([str(count), terms[count - 1]["left"]] for count in range(10, len(terms) + 1, 10)))
+
+
+def nature_earth() -> list[str]:
+    """Terms of the nutation of a rigid Earth, published and found: the main ones over the longest span."""
+    rows = read("nature-earth.csv")
+    longest = max((row["years"] for row in rows), key=float)
+    header = ["argument", "period [d]", "in the sum with", "Δψ sine, REN-2000 [µas]", "found", "difference", "Δε cosine, REN-2000 [µas]", "found", "difference"]
+    names = ["argument", "period_days", "with", *(f"{angle}{what}_uas" for angle in ("dpsi_sin", "deps_cos") for what in ("", "_found", "_difference"))]
+    return markdown(header, ([row[name] for name in names] for row in rows if row["years"] == longest and row["main"] == "yes"))
+
+
+def nature_nutation() -> list[str]:
+    """Differences from REN-2000 by span and angle, of all terms of 100 µas that the span separates."""
+    groups: dict[str, list[Row]] = {}
+    for row in read("nature-earth.csv"):
+        groups.setdefault(row["years"], []).append(row)
+    lines = []
+    for years, rows in groups.items():
+        for name, title in (("dpsi_sin", "Δψ, sine"), ("dpsi_cos", "Δψ, cosine"), ("deps_cos", "Δε, cosine"), ("deps_sin", "Δε, sine")):
+            apart = [abs(float(row[f"{name}_difference_uas"])) for row in rows]
+            lines.append([years, title, str(len(rows)), f"{statistics.median(apart):.2f}", str(sum(value <= 100 for value in apart)), f"{max(apart):.1f}"])
+    return markdown(["years", "amplitude", "terms", "median difference [µas]", "terms within 100 µas", "largest [µas]"], lines)
+
+
 TABLES: dict[str, Callable[[], list[str]]] = {
     "averaged-bodies": averaged_bodies,
     "ensemble": ensemble,
@@ -301,6 +335,10 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "libration-cost": libration_cost,
     "libration-rivals": libration_rivals,
     "light-curves": light_curves,
+    "nature-earth": nature_earth,
+    "nature-moon": nature_moon,
+    "nature-moon-terms": nature_moon_terms,
+    "nature-nutation": nature_nutation,
     "rivals-gradient": rivals_gradient,
     "rivals-integration": rivals_integration,
     "rivals-partials": rivals_partials,

@@ -7,7 +7,15 @@ WIDTHS = (400, 1300)
 PAGES = sorted(str(path.relative_to(SITE)) for path in SITE.rglob("*.html") if "rust" not in path.parts and "_static" not in path.parts)
 SCRIPTS = sorted((SITE.parents[1] / "examples" / "gallery").glob("plot_*.py"))
 WITH_EQUATIONS = {"theory.html": 12, "errata.html": 4}
-WITH_PICTURES = {"index.html": 4, "gravity-gradient.html": 2, "fits.html": 2, "gallery/index.html": len(SCRIPTS), "speed.html": 2, "series-or-closed.html": 1}
+WITH_PICTURES = {
+    "index.html": 4,
+    "nature.html": 2,
+    "gravity-gradient.html": 2,
+    "fits.html": 2,
+    "gallery/index.html": len(SCRIPTS),
+    "speed.html": 2,
+    "series-or-closed.html": 1,
+}
 
 BROKEN = "[...document.images].filter(image => !(image.complete && image.naturalWidth > 1)).map(image => image.src)"
 # Code and output whose text is wider than its box.
