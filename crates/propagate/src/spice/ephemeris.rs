@@ -13,6 +13,8 @@ const MOST: usize = 1 << 20;
 /// Most intervals in which a table is compared with the ephemeris, evenly among all, and the places within them.
 const COMPARED: usize = 4096;
 const PLACES: [f64; 3] = [0.2, 0.5, 0.8];
+/// Below this error more rows bring one less, but for jumps and rounding.
+const CONVERGING: f64 = 1e-3;
 /// Between two rows the polynomials have the degree 11.
 const ORDER: f64 = 12.0;
 
@@ -88,7 +90,7 @@ impl TabulatedOrbit {
                 return Ok(table);
             }
             // More rows that bring nothing: the segments of the file have a jump, or its numbers are rounded.
-            if intervals >= MOST || (found > 0.5 * last && intervals > 64 * FIRST && 2 * intervals >= 3 * before) {
+            if intervals >= MOST || (found > 0.5 * last && found < CONVERGING && 2 * intervals >= 3 * before) {
                 return Err(EphemerisError::Coarse { error: request.error, rows: intervals + 1, found });
             }
             let growth = (found / request.error).powf(1.0 / ORDER).clamp(1.1, 2.0);
