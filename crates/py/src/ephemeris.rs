@@ -98,6 +98,9 @@ fn read_error(problem: ReadError) -> PyErr {
 
 fn exception(problem: EphemerisError) -> PyErr {
     match problem {
+        EphemerisError::Read(problem @ ReadError::NotCovered { et, .. }) => {
+            input("span", et, "covered by the files", problem.to_string())
+        }
         EphemerisError::Read(problem) => read_error(problem),
         EphemerisError::Table(problem) => error::propagation(problem),
         other => {
