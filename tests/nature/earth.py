@@ -13,13 +13,12 @@ a fit of one amplitude in sine and one in cosine for each term of 100 µas that 
 in the sum with it. The fit has a polynomial and the free wobble of the initial state, too.
 """
 
-import argparse
 import sys
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from kernels import ARCSECOND, CENTURY, DATA, DAY, ROOT, YEAR, read, table, write
+from kernels import ARCSECOND, CENTURY, DAY, ROOT, YEAR, options, read, table, write
 from numpy.typing import NDArray
 
 import andoyer
@@ -205,15 +204,11 @@ def draw(rows: list[dict[str, str]], path: Path) -> None:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--years", type=float, nargs="+", default=SPANS)
-    parser.add_argument("--picture", action="store_true", help="draw from the file that is there")
-    parser.add_argument("--data", type=Path, default=DATA / "nature-earth.csv")
-    options = parser.parse_args()
-    if not options.picture:
+    asked = options(__doc__, SPANS, "nature-earth.csv")
+    if not asked.picture:
         terms = series()
-        write(options.data, [row for years in options.years for row in differences(terms, years)])
-    rows = read(options.data)
+        write(asked.data, [row for years in asked.years for row in differences(terms, years)])
+    rows = read(asked.data)
     draw(rows, PICTURE)
     return 0 if summary(rows) else 1
 

@@ -1,9 +1,10 @@
 """Files and constants of nature: DE440, the orientation of the Moon of DE421, and tables of orbits from them."""
 
+import argparse
 import csv
 import importlib.util
-import itertools
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +17,6 @@ DAY, YEAR, CENTURY = 86400.0, 365.25 * 86400.0, 36525 * 86400.0
 ARCSECOND = np.pi / 648000
 # G × mass of DE440 [km³/s²] (Park et al. 2021, gm_de440.tpc).
 GM = {"SUN": 132712440041.279419, "EARTH": 398600.435507, "MOON": 4902.800118, "VENUS": 324858.592, "JUPITER BARYCENTER": 126712764.1}
-LONGEST = 20 * YEAR
-"""A table of one piece covers so many seconds at most: the search for the step of `from_spk` ends too early over longer spans."""
 
 
 def _file(package: str, path: str) -> Path:
@@ -39,14 +38,16 @@ def orientation() -> Path:
 
 def table(target: str, observer: str, span: tuple[float, float], *, frame: str = "J2000", error: float = 1e-10) -> andoyer.TabulatedOrbit:
     """The orbit of `target` about `observer` from DE440 over the span [s of TDB past J2000], within this part of its distance."""
-    edges = np.linspace(*span, int(np.ceil((span[1] - span[0]) / LONGEST)) + 1)
-    pieces = [
-        andoyer.TabulatedOrbit.from_spk(ephemeris(), target, observer, piece, gm=GM[target], frame=frame, error=error) for piece in itertools.pairwise(edges)
-    ]
-    times, positions, velocities = (
-        np.concatenate([getattr(piece, name)[bool(k) :] for k, piece in enumerate(pieces)]) for name in ("times", "positions", "velocities")
-    )
-    return andoyer.TabulatedOrbit(times, positions, GM[target], velocities=velocities)
+    return andoyer.TabulatedOrbit.from_spk(ephemeris(), target, observer, span, gm=GM[target], frame=frame, error=error)
+
+
+def options(description: str | None, spans: Sequence[float], data: str) -> argparse.Namespace:
+    """The options of a comparison: its spans in years, the file of docs/data, whether the picture is drawn alone."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--years", type=float, nargs="+", default=spans)
+    parser.add_argument("--picture", action="store_true", help="draw from what the last run left")
+    parser.add_argument("--data", type=Path, default=DATA / data)
+    return parser.parse_args()
 
 
 def write(path: Path, rows: list[dict[str, str]]) -> None:

@@ -12,13 +12,12 @@ The Moon starts at J2000 with attitude and rates of the kernel; Earth and Sun ar
                        ΔI = k₂ m R⁵ ⟨r⁻³⟩ (−2/3, 1/3, 1/3) about axes 1, 2, 3, m the mass of the Earth, axis 1 towards it
 """
 
-import argparse
 import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from kernels import ARCSECOND, DATA, DAY, GM, ROOT, YEAR, orientation, read, table, write
+from kernels import ARCSECOND, DAY, GM, ROOT, YEAR, options, orientation, read, table, write
 from numpy.typing import NDArray
 
 import andoyer
@@ -111,22 +110,18 @@ def draw(histories: dict[str, Array], path: Path) -> None:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--years", type=float, nargs="+", default=SPANS)
-    parser.add_argument("--picture", action="store_true", help="draw from the last run, whose histories are in out/")
-    parser.add_argument("--data", type=Path, default=DATA / "nature-moon.csv")
-    options = parser.parse_args()
-    if not options.picture:
+    asked = options(__doc__, SPANS, "nature-moon.csv")
+    if not asked.picture:
         rows = []
-        for years in options.years:
+        for years in asked.years:
             found, histories = measured(years)
             rows += found
-        write(options.data, rows)
+        write(asked.data, rows)
         HISTORY.parent.mkdir(exist_ok=True)
         np.savez(HISTORY, **histories)
     with np.load(HISTORY) as histories:
         draw(dict(histories), PICTURE)
-    worst = {(row["model"], row["years"]): float(row["angle"]) for row in read(options.data)}
+    worst = {(row["model"], row["years"]): float(row["angle"]) for row in read(asked.data)}
     # Seen: 3.08" and 10.86"; the bounds notice a torque that is wrong.
     return int(worst.get(("degree 4", "2"), 0) > 3.5 or worst.get(("degree 4", "10"), 0) > 12)
 

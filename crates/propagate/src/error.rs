@@ -6,6 +6,7 @@ mod duration;
 mod place;
 mod sentences;
 mod torque_measure;
+mod torque_refusal;
 
 use Kind::{File, Input, Internal, Representation, Theory};
 use andoyer_series::error::{Facts, Short, facts};
@@ -18,6 +19,7 @@ use sentences::{
     rounded_up, setting, slow, too_many, turn, unaveraged,
 };
 pub use torque_measure::TorqueMeasure;
+pub(crate) use torque_refusal::torque_refused;
 
 const POSITIVE: &str = "positive and finite";
 

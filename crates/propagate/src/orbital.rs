@@ -66,7 +66,7 @@ pub struct OrbitalSample {
 }
 
 impl OrbitalSample {
-    /// Of a time without a motion.
+    /// NaN, for a time at which there is no motion.
     pub const NAN: Self = Self {
         attitude: Unit::new_unchecked(Quaternion::new(f64::NAN, f64::NAN, f64::NAN, f64::NAN)),
         angular_velocity: Vector3::new(f64::NAN, f64::NAN, f64::NAN),

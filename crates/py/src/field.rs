@@ -18,7 +18,7 @@ use crate::values::immutable;
 
 /// A magnetic field along an orbit, for `Torque.dipole` and `Torque.eddy`. It is made by one of the class methods below.
 ///
-/// As a source of `Torque.polynomial` it has the direction of the field, and its size in the place of a distance: ``distance_powers={"b": -1}, reference_distances={"b": 1.0}`` multiplies by the size of the field.
+/// Among the sources of `Torque.polynomial` a field has the direction of the field, and its size in the place of a distance: ``distance_powers={"b": -1}, reference_distances={"b": 1.0}`` multiplies by the size of the field.
 ///
 /// Examples
 /// --------
@@ -30,7 +30,7 @@ use crate::values::immutable;
 #[derive(PartialEq)]
 pub(crate) struct Field(pub(crate) FieldPath);
 
-/// What a field is made of.
+/// The dipole or the table of a field.
 #[derive(Clone, PartialEq)]
 pub(crate) enum FieldPath {
     Dipole(Arc<DipoleField>),

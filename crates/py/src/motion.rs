@@ -231,8 +231,9 @@ impl Motion {
     ///     Times, in the unit of time of the scene.
     /// with_respect_to : str or sequence of str and (str, int), optional
     ///     Groups of parameters: "attitude" (3 columns), "angular_velocity" (3), "moments" (3, or the 6 elements of a tensor), "orbit" (6: mean_motion, eccentricity,
-    ///     time_of_pericentre, inclination, node, argument_of_pericentre), "attraction" (1). The last two are those of the disturbing body; of several the index says
-    ///     which: ("orbit", 1). The other arguments of the orbit are held, `attraction` or `mass_fraction` among them, whichever it was made with. The orbits of
+    ///     time_of_pericentre, inclination, node, argument_of_pericentre), "attraction" (1), both of the disturbing body, and "torque": the components of a constant torque, of a rotor or of a dipole (m × B of one
+    ///     source), the 9 elements of a damping; of another polynomial its factor and, up to 60, its coefficients. Of several bodies or torques the index says which: ("orbit", 1).
+    ///     The other arguments of the orbit are held, `attraction` or `mass_fraction` among them, whichever it was made with, and M R² of a gravity field. The orbits of
     ///     sources of torques are no parameters.
     ///
     /// Returns
@@ -245,7 +246,7 @@ impl Motion {
     /// TheoryError
     ///     The motion is on the separatrix, where the frequencies have no derivatives.
     /// InputError
-    ///     An unknown parameter, or that of a disturbing body that the scene lacks or that has a table.
+    ///     An unknown parameter; that of a disturbing body that the scene lacks or that has a table; "orbit" or "attraction" of a body with a gravity field; that of a torque that the scene lacks.
     ///
     /// Examples
     /// --------

@@ -65,7 +65,7 @@ enum OneOrMany {
 pub(crate) fn parameters(motion: &Motion, given: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Parameter>> {
     let Some(given) = given else { return Ok(Parameter::STATE_AND_BODY.to_vec()) };
     let Ok(given) = given.extract::<OneOrMany>() else {
-        let message = "with_respect_to must be names, such as \"orbit\", and pairs of name and index, such as (\"orbit\", 1), not ";
+        let message = "with_respect_to must be names, such as \"orbit\", and pairs of name and index, such as (\"torque\", 1), not ";
         return Err(PyTypeError::new_err(format!("{message}{}", given.repr()?)));
     };
     let given = match given {
@@ -78,7 +78,7 @@ pub(crate) fn parameters(motion: &Motion, given: Option<&Bound<'_, PyAny>>) -> P
             Ok(index) => motion.parameter(name, Some(index)),
             Err(_) => Err(Error::Parameter {
                 value: format!("(\"{name}\", {index})"),
-                bound: "a pair of a name and the index of a disturbing body, from 0".to_owned(),
+                bound: "a pair of a name and the index of a disturbing body or of a torque, from 0".to_owned(),
             }),
         },
     });

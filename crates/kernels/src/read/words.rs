@@ -62,12 +62,12 @@ impl<'a> Words<'a> {
         Ok(std::array::from_fn(|word| words[word]))
     }
 
-    /// What a function makes of words, which are read if they are not the kept ones.
+    /// Calls a function with words, which are read from the file unless they are kept.
     pub(super) fn with<T>(&self, place: usize, count: usize, make: impl FnOnce(&[f64]) -> T) -> Result<T, ReadError> {
         self.with_block(0, place, count, make)
     }
 
-    /// The same with other kept words, for the times of states.
+    /// Calls a function with words of a second kept block: that of the times of states.
     pub(super) fn with_second<T>(
         &self,
         place: usize,

@@ -7,14 +7,11 @@ use super::harmonics::{Load, ModeAxes, Swing};
 use super::material::{Material, positive, refused};
 use super::size::{Size, flat, given, shape};
 use crate::error::Error;
-use crate::input::body::Body;
+use crate::input::body::{Body, SAME_RATIO};
 use crate::input::energy_loss::{EnergyLoss, LossState};
 use crate::input::scene::Scene;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
-
-/// Difference of ratios of moments that is rounding.
-const SAME_RATIO: f64 = 1e-12;
 
 /// One harmonic of the load, from [`Dissipation::harmonics`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -265,7 +262,7 @@ impl Dissipation {
     /// The state of a scene of this body.
     pub(super) fn tumbling(&self, scene: &Scene) -> Result<Tumbling, Error> {
         let scene = scene.validated()?;
-        if !proportional(scene.body(), &self.body) {
+        if !scene.body().is_proportional(&self.body) {
             let reason = format!("this is the dissipation of a body with the moments {:?}", self.body.moments());
             let value = format!("a body with the moments {:?}", scene.body().moments());
             return Err(Error::NoDissipation { argument: "scene", value, reason });
@@ -289,7 +286,7 @@ impl Dissipation {
 impl From<Dissipation> for EnergyLoss {
     fn from(dissipation: Dissipation) -> Self {
         let unit = dissipation.moment_unit();
-        Self::of_body(dissipation.body.moments(), move |state: &LossState| {
+        Self::of_body(dissipation.body.clone(), move |state: &LossState| {
             let x = state.excess / state.separatrix;
             if x == 0.0 {
                 return Ok(0.0);
@@ -309,10 +306,4 @@ fn settled(mut moments: [f64; 3]) -> [f64; 3] {
         }
     }
     moments
-}
-
-/// Whether two bodies have the same ratios of moments.
-fn proportional(one: &Body, other: &Body) -> bool {
-    let [ratios, others] = [one, other].map(|body| body.moments().map(|moment| moment / body.sorted()[2]));
-    ratios.iter().zip(others).all(|(ratio, other)| (ratio - other).abs() <= SAME_RATIO)
 }

@@ -119,14 +119,14 @@ impl AveragedScene {
         Ok(short.mean(&self.attitude, &self.momentum))
     }
 
-    /// The same of states with the same momentum and energy at evenly spread phases.
+    /// The mean momentum and excess of each member: a state with the momentum and energy of the epoch at one of evenly spread phases.
     pub(super) fn means_of_members(&self, members: usize) -> Result<Vec<(Vector3<f64>, f64)>, Error> {
         let short = ShortPeriod::new(&self.equations, self.equations.epoch, (&self.momentum, self.excess))?;
         let phases = (0..members).map(|member| EVEN.map(|step| TAU * ((member as f64 + 0.5) * step).fract()));
         Ok(phases.map(|[along, turn]| short.mean_of_angles((along, turn), &self.momentum)).collect())
     }
 
-    /// The same scene in a state with these means, at some phases.
+    /// The scene in a state with this momentum and excess, at phases of no meaning.
     ///
     /// # Errors
     /// As [`AveragedScene::new`].

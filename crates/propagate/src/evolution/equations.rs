@@ -5,10 +5,10 @@ use nalgebra::{Matrix3, Vector3};
 use super::polhode_means::{EvenMonomial, ExcessPolhode, ModeFamily};
 use super::rows::{RowBuilder, RowGroup, SortedTorque, TorqueTerms, evaluated};
 use super::sources::{MovingSource, View};
-use crate::error::Error;
+use crate::error::{Error, torque_refused};
 use crate::input::energy_loss::{EnergyLoss, LossState};
 use crate::input::scene::Scene;
-use crate::input::torque::{SourcePath, Torque, refused};
+use crate::input::torque::{SourcePath, Torque};
 use crate::orbit::disturbing_body::DisturbingBody;
 
 /// Rates of the slow variables.
@@ -77,7 +77,7 @@ impl AveragedTorques {
         let (mut sources, mut parts, mut losses) = (Vec::new(), Vec::new(), Vec::new());
         for torque in scene.acting_torques().iter() {
             if let Torque::Dissipation(loss) = torque {
-                loss.check(moments.into())?;
+                loss.check(scene.body())?;
                 losses.push(loss.clone());
                 continue;
             }
@@ -109,7 +109,7 @@ impl AveragedTorques {
         if uniform == 0.0 {
             return Ok(found);
         }
-        Err(refused("dissipation", uniform, "0 at the excess 0, where the body rotates uniformly"))
+        Err(torque_refused("dissipation", uniform, "0 at the excess 0, where the body rotates uniformly"))
     }
 
     /// The power of inner friction over the largest moment.
@@ -133,7 +133,7 @@ impl AveragedTorques {
         Ok(2.0 * of_own * self.loss(rate, excess)? / (rate * rate))
     }
 
-    /// The same without inner friction, and whether there is any.
+    /// The equations without inner friction, and whether they had any.
     pub(super) fn without_losses(&self) -> (Self, bool) {
         (Self { losses: Vec::new(), ..self.clone() }, !self.losses.is_empty())
     }
@@ -302,7 +302,7 @@ fn sorted_torques(torque: &Torque, sort: &Matrix3<f64>) -> Result<(Vec<SortedTor
         }
         Torque::Rotor(momentum) => {
             let bound = "absent: a body with rotors does not rotate as a rigid body alone; integrate the scene";
-            Err(refused("rotor", format!("{momentum:?}"), bound))
+            Err(torque_refused("rotor", format!("{momentum:?}"), bound))
         }
         // A term of its own, not a torque.
         Torque::Dissipation(_) => Ok((Vec::new(), Vec::new())),

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32};
 use nalgebra::Vector3;
 
 use super::averaged_scene::{AveragedScene, Evolved};
-use super::path::{AveragedPath, EvolutionEnd, Node, Scaled, Watch};
+use super::path::{AveragedPath, EvolutionEnd, Node, Scaled, UNREAD, Watch};
 use super::polhode_means::ModeFamily;
 use super::resonances::{PassedResonance, passed};
 use super::short_period::ShortPeriod;
@@ -234,8 +234,6 @@ pub struct EvolveOptions<'a> {
 
 /// Most members of an evolution.
 const MOST_MEMBERS: usize = 10_000;
-
-static UNREAD: AtomicU32 = AtomicU32::new(0);
 
 impl Default for EvolveOptions<'_> {
     /// The span of the scene, the averaging that serves, a tolerance of 1e-6.

@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 
 use super::harmonic::{Form, half_range, harmonic_parts, zonal_sum};
 use super::sphere::{SphereRule, check_degree};
-use crate::error::Error;
-use crate::input::torque::{SourcePath, Torque, TorqueSource, refused};
+use crate::error::{Error, torque_refused};
+use crate::input::torque::{SourcePath, Torque, TorqueSource};
 
 /// How a surface reflects and radiates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,12 +48,12 @@ impl Light {
     /// The source with the name of the polynomials, whose light falls with the square of the distance.
     fn source(&self) -> Result<TorqueSource, Error> {
         if !(self.pressure.is_finite() && self.pressure > 0.0) {
-            return Err(refused("pressure", self.pressure, "positive and finite"));
+            return Err(torque_refused("pressure", self.pressure, "positive and finite"));
         }
         let source = TorqueSource::new("s", self.path.clone());
         match (&self.path, self.at) {
             (SourcePath::Direction(_), Some(at)) => {
-                Err(refused("at", at, "absent for a direction, which has no distance"))
+                Err(torque_refused("at", at, "absent for a direction, which has no distance"))
             }
             (SourcePath::Direction(_), None) => Ok(source),
             (_, at) => Ok(source.falling(2.0, at)),
@@ -76,14 +76,14 @@ impl Plate {
         let Finish { specular, diffuse, emission } = facet.finish;
         for (argument, value) in [("specular", specular), ("diffuse", diffuse), ("emission", emission)] {
             if !(0.0..=1.0).contains(&value) {
-                return Err(refused(argument, value, "from 0 to 1"));
+                return Err(torque_refused(argument, value, "from 0 to 1"));
             }
         }
         if specular + diffuse > 1.0 {
-            return Err(refused("specular + diffuse", specular + diffuse, "at most 1"));
+            return Err(torque_refused("specular + diffuse", specular + diffuse, "at most 1"));
         }
         if !(facet.area.is_finite() && facet.area >= 0.0) {
-            return Err(refused("area", facet.area, "finite and not negative"));
+            return Err(torque_refused("area", facet.area, "finite and not negative"));
         }
         let [normal, centroid] = [facet.normal, facet.centroid].map(Vector3::from);
         for (argument, vector, zero) in [("normals", &normal, false), ("centroids", &centroid, true)] {
@@ -128,7 +128,7 @@ impl Torque {
         check_degree(degree)?;
         let source = light.source()?;
         if facets.is_empty() {
-            return Err(refused("areas", "none", "at least one facet"));
+            return Err(torque_refused("areas", "none", "at least one facet"));
         }
         let plates = facets.iter().map(|facet| Plate::of(facet, light.pressure)).collect::<Result<Vec<_>, _>>()?;
         let forms = polynomials(&plates, degree)?;
@@ -154,7 +154,11 @@ impl Torque {
         let (mut area_sum, mut areas, mut volume) = (Vector3::zeros(), 0.0, 0.0);
         for triangle in triangles {
             if let Some(index) = triangle.iter().find(|index| **index >= vertices.len()) {
-                return Err(refused("triangles", index, &format!("below the number of vertices, {}", vertices.len())));
+                return Err(torque_refused(
+                    "triangles",
+                    index,
+                    &format!("below the number of vertices, {}", vertices.len()),
+                ));
             }
             let [a, b, c] = triangle.map(|index| Vector3::from(vertices[index]));
             let doubled = (b - a).cross(&(c - a));
@@ -170,7 +174,7 @@ impl Torque {
         }
         if area_sum.norm() < 1e-6 * areas && volume < 0.0 {
             let bound = "counter-clockwise as seen from outside: the volume of the closed shape is negative";
-            return Err(refused("triangles", "clockwise", bound));
+            return Err(torque_refused("triangles", "clockwise", bound));
         }
         Self::panels(&facets, light, degree)
     }

@@ -19,7 +19,7 @@ const NEAREST: f64 = 1.0 - 1e-12;
 /// Errors of the excess are relative to it down to this fraction of that of the separatrix.
 const LEAST_EXCESS: f64 = 1e-14;
 
-/// What another thread sees of an integration: it may stop it, and reads the share that is done.
+/// The flag by which another thread stops an integration, and the share of the work that it reads.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Watch<'a> {
     pub(super) stop: &'a AtomicBool,
@@ -38,6 +38,9 @@ impl Watch<'_> {
         going(self.stop).map_err(|_| Error::Stopped)
     }
 }
+
+/// A share that nobody reads.
+pub(super) static UNREAD: AtomicU32 = AtomicU32::new(0);
 
 /// Where an evolution ends.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -15,6 +15,9 @@ const POINTS: usize = 12;
 /// Above this k² the recurrence (7) is used: below it the recurrence loses digits, above it the midpoint rule does.
 const RECURRENCE: f64 = 0.5;
 
+/// Step of differences in ξ, relative to it.
+const SLOPE_STEP: f64 = 1e-5;
+
 /// The axis of the mode and the sense of the angular momentum along it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ModeFamily {
@@ -96,6 +99,18 @@ impl ExcessPolhode {
         let (a, b, own) = (self.alpha[self.family.across()], self.alpha.y, self.moments[self.family.axis()]);
         // At ξ = 0 it is √(a b)/I_p; |1/B − 1/I_p| = b/I_p.
         if b > 0.0 { b / own * self.amplitudes[2] * (a / b).sqrt() * self.scale.mean } else { 0.0 }
+    }
+
+    /// dℓ′/dt and dy′/dt for a size of the angular momentum, and their derivatives with respect to ξ.
+    pub(super) fn rates_and_slopes(&self, size: f64) -> ([f64; 2], [f64; 2]) {
+        let rates = |polhode: &Self| [polhode.wobble_rate(), polhode.mean_turn_rate()].map(|rate| size * rate);
+        let here = rates(self);
+        if self.excess == 0.0 {
+            return (here, [0.0; 2]);
+        }
+        let step = SLOPE_STEP * self.excess;
+        let there = rates(&Self::new(&self.moments, self.family, self.excess - step));
+        (here, [0, 1].map(|angle| (here[angle] - there[angle]) / step))
     }
 
     /// 2E/M².

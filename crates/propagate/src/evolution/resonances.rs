@@ -4,13 +4,13 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Complex, Vector3};
+use nalgebra::Vector3;
 
 use super::averaged_scene::AveragedScene;
 use super::equations::AveragedTorques;
 use super::path::{AveragedPath, Node, Scaled};
 use super::polhode_means::ExcessPolhode;
-use super::torus::{ABOUT, ALONG, Lag, MomentumFrame, phase, torque_grid};
+use super::torus::{ALONG, TorusTerms};
 use crate::error::Error;
 use crate::orbit::elements::Orbit;
 
@@ -20,8 +20,6 @@ const PLACES: usize = 8;
 const PASSAGES: usize = 8;
 /// Bisections of a step: its time is known to 1e-9 of it.
 const BISECTIONS: usize = 30;
-/// Step of differences in ξ, relative to it.
-const STEP: f64 = 1e-5;
 
 /// A resonance that an evolution passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,11 +116,8 @@ fn passage(
     let [x, y, z, excess] = state;
     let momentum = Vector3::new(x, y, z) * scaled.unit;
     let size = momentum.norm();
-    let divisor = |excess: f64| {
-        let polhode = ExcessPolhode::new(&equations.moments, equations.family, excess);
-        size * (f64::from(h) * polhode.wobble_rate() + f64::from(m) * polhode.mean_turn_rate())
-    };
-    let slope = (divisor(excess) - divisor(excess * (1.0 - STEP))) / (STEP * excess);
+    let (_, slopes) = ExcessPolhode::new(&equations.moments, equations.family, excess).rates_and_slopes(size);
+    let slope = f64::from(h) * slopes[0] + f64::from(m) * slopes[1];
     let mean = scaled.slope(time, &state)?[3].abs();
     let averaged = equations.sources.iter().filter(|source| source.over_orbit).filter_map(|source| source.ellipse());
     let fastest = averaged.map(Orbit::mean_motion).fold(0.0, f64::max);
@@ -130,7 +125,9 @@ fn passage(
     let mut term = [0.0_f64; 2];
     for place in 0..places {
         let after = if fastest > 0.0 { TAU / fastest * place as f64 / places as f64 } else { 0.0 };
-        let sizes = coefficient(equations, time + after, (&momentum, excess), [h, m])?;
+        let [radial, x, z, excess_rate] = TorusTerms::new(equations, time + after, (&momentum, excess))?.of([h, m]);
+        let torque = [radial, x, z].iter().map(|part| part.norm_sqr()).sum::<f64>().sqrt();
+        let sizes = [torque, excess_rate.norm()];
         term = [0, 1].map(|k| term[k].max(sizes[k]));
     }
     let ratio = 2.0 * term[1] / mean;
@@ -145,29 +142,4 @@ fn passage(
         excess_jump: lasting * term[1],
         ratio,
     })
-}
-
-/// Sizes of the term (h, m) of the torque and of ξ̇.
-fn coefficient(
-    equations: &AveragedTorques,
-    time: f64,
-    (momentum, excess): (&Vector3<f64>, f64),
-    [h, m]: [i32; 2],
-) -> Result<[f64; 2], Error> {
-    let polhode = ExcessPolhode::new(&equations.moments, equations.family, excess);
-    let towards = equations.places(time)?.first().map_or_else(Vector3::z, |view| view.direction);
-    let frame = MomentumFrame::new(momentum, &towards);
-    let directions = std::array::from_fn(|point| polhode.direction(phase(point).sin_cos()));
-    let lag = Lag::new(&polhode, &directions);
-    let grid = torque_grid(equations, time, (&frame, &polhode, momentum.norm()), &directions, &lag)?;
-    let sum = |function: usize| -> Complex<f64> {
-        let points = (0..ABOUT).flat_map(|about| (0..ALONG).map(move |point| (about, point)));
-        let term = |(about, point): (usize, usize)| {
-            let angle = f64::from(h) * phase(point) + f64::from(m) * TAU * about as f64 / ABOUT as f64;
-            Complex::from_polar(grid[function][about][point], -angle)
-        };
-        points.map(term).sum::<Complex<f64>>() / (ALONG * ABOUT) as f64
-    };
-    let torque = [0, 1, 2].map(|function| sum(function).norm_sqr()).iter().sum::<f64>().sqrt();
-    Ok([torque, sum(3).norm()])
 }

@@ -7,8 +7,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::harmonic::{Form, harmonic_parts};
 use super::polhode_means::{EvenMonomial, ModeFamily};
-use crate::error::Error;
-use crate::input::torque::{PolynomialTorque, refused};
+use crate::error::{Error, torque_refused};
+use crate::input::torque::PolynomialTorque;
 
 /// A torque of one source on sorted axes: three polynomials in the direction, slots 0 to 2, and the rates, slots 3 to 5.
 pub(super) struct SortedTorque {
@@ -84,7 +84,7 @@ impl SortedTorque {
                     [source] => (Some(source), [0, 1, 2].map(|k| directions[3 * source + k])),
                     _ => {
                         let bound = "averaged with the direction or the distance of one source in each term; average the product yourself, or integrate";
-                        return Err(refused("texts", &torque.texts()[axis], bound));
+                        return Err(torque_refused("texts", &torque.texts()[axis], bound));
                     }
                 };
                 let monomial = Monomial::new(&[&powers[..], rates].concat())?;

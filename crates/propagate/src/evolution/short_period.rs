@@ -4,7 +4,7 @@ use nalgebra::{Complex, Rotation3, UnitQuaternion, Vector3};
 
 use super::equations::AveragedTorques;
 use super::polhode_means::ExcessPolhode;
-use super::torus::{ABOUT, ALONG, Lag, MomentumFrame, fourier, phase, signed, torque_grid, turned_axes};
+use super::torus::{ABOUT, ALONG, Lag, MomentumFrame, TorusTerms, signed, turned_axes};
 use crate::error::Error;
 
 /// A term next to a resonance is left out: 2|F ∂Ω/∂ξ| ≥ LIMIT Ω².
@@ -31,44 +31,26 @@ impl ShortPeriod {
         time: f64,
         (momentum, excess): (&Vector3<f64>, f64),
     ) -> Result<Self, Error> {
-        let polhode = ExcessPolhode::new(&equations.moments, equations.family, excess);
         let size = momentum.norm();
-        let towards = equations.places(time)?.first().map_or_else(Vector3::z, |view| view.direction);
-        let frame = MomentumFrame::new(momentum, &towards);
-        let directions = std::array::from_fn(|point| polhode.direction(phase(point).sin_cos()));
-        let lag = Lag::new(&polhode, &directions);
-        let grid = torque_grid(equations, time, (&frame, &polhode, size), &directions, &lag)?;
-        let coefficients = fourier(&grid);
-        let steady = Self::wobble(equations, time, (&frame, size))?;
-        let mut found = Self { frame, polhode, lag, terms: Vec::new(), wobble: steady };
-        let (rates, slopes) = found.rates(size);
+        let torus = TorusTerms::new(equations, time, (momentum, excess))?;
+        let wobble = Self::wobble(equations, time, (&torus.frame, size))?;
+        let (rates, slopes) = torus.polhode.rates_and_slopes(size);
+        let mut terms = Vec::new();
         for m in 0..ABOUT {
             for h in 0..ALONG {
                 let multiples = [signed(h, ALONG), signed(m, ABOUT)];
                 let [divisor, slope] = [rates, slopes]
                     .map(|[wobble, turn]| f64::from(multiples[0]) * wobble + f64::from(multiples[1]) * turn);
-                let term = [0, 1, 2, 3].map(|function| coefficients[function][m][h]);
+                let term = torus.of(multiples);
                 let resonant = 2.0 * (term[3] * slope).norm() >= LIMIT * divisor * divisor;
                 if multiples != [0, 0] && divisor.abs() > 1e-14 * size && !resonant {
                     // W = F/(iΩ)
-                    found.terms.push((multiples, term.map(|c| c / Complex::new(0.0, divisor))));
+                    terms.push((multiples, term.map(|c| c / Complex::new(0.0, divisor))));
                 }
             }
         }
-        Ok(found)
-    }
-
-    /// dℓ′/dt and dy′/dt, and their derivatives with respect to ξ.
-    fn rates(&self, size: f64) -> ([f64; 2], [f64; 2]) {
-        let rates = |polhode: &ExcessPolhode| [polhode.wobble_rate(), polhode.mean_turn_rate()].map(|rate| size * rate);
-        let here = rates(&self.polhode);
-        let excess = self.polhode.excess;
-        if excess == 0.0 {
-            return (here, [0.0; 2]);
-        }
-        let step = 1e-5 * excess;
-        let there = rates(&ExcessPolhode::new(&self.polhode.moments, self.polhode.family, excess - step));
-        (here, [0, 1].map(|angle| (here[angle] - there[angle]) / step))
+        let TorusTerms { frame, polhode, lag, .. } = torus;
+        Ok(Self { frame, polhode, lag, terms, wobble })
     }
 
     /// The coefficients of ζ for a rotation about the axis (13).

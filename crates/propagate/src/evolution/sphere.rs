@@ -7,8 +7,8 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 use nalgebra::Vector3;
 
 use super::harmonic::{Form, zonal_sum};
-use crate::error::Error;
-use crate::input::torque::{MOST_DEGREE, PolynomialTorque, Torque, TorqueSource, refused};
+use crate::error::{Error, torque_refused};
+use crate::input::torque::{MOST_DEGREE, PolynomialTorque, Torque, TorqueSource};
 
 /// A torque that is known on the sphere is sampled up to this degree beyond that of its polynomials: for light on facets it keeps the aliasing below the truncation.
 const BEYOND: u32 = 16;
@@ -54,7 +54,7 @@ impl SphereRule {
             return Err(Error::Length { argument: "table", found: values.len(), expected: self.points.len() });
         }
         if let Some(value) = values.iter().flatten().find(|value| !value.is_finite()) {
-            return Err(refused("table", value, "finite at every direction"));
+            return Err(torque_refused("table", value, "finite at every direction"));
         }
         let mut forms = [Form::zero(), Form::zero(), Form::zero()];
         for l in 0..=self.degree {
@@ -79,7 +79,7 @@ impl SphereRule {
         let highest = count.isqrt().saturating_sub(1);
         let uneven = coefficients.iter().any(|row| row.len() != count);
         if uneven || (highest + 1) * (highest + 1) != count || highest > most {
-            return Err(refused("table", count, &format!("(d + 1)² coefficients, d at most {most}")));
+            return Err(torque_refused("table", count, &format!("(d + 1)² coefficients, d at most {most}")));
         }
         let value = |(point, _): &(Vector3<f64>, f64)| {
             let harmonics = real_harmonics(point, highest);
@@ -117,7 +117,7 @@ impl PolynomialTorque {
         let of_rates =
             self.terms().iter().flatten().any(|(_, exponents)| exponents.iter().rev().take(3).any(|e| *e > 0));
         if self.sources().len() != 1 || of_rates {
-            return Err(refused("value", self.sources().len(), "of polynomials in the direction to one source"));
+            return Err(torque_refused("value", self.sources().len(), "of polynomials in the direction to one source"));
         }
         let u = Vector3::from(direction);
         if !(u.amax() > 0.0 && u.amax().is_finite()) {
@@ -136,7 +136,7 @@ impl PolynomialTorque {
 /// # Errors
 /// - [`Error::Torque`] for 0 and above 8.
 pub(super) fn check_degree(degree: u32) -> Result<(), Error> {
-    if (1..=MOST_DEGREE).contains(&degree) { Ok(()) } else { Err(refused("degree", degree, "from 1 to 8")) }
+    if (1..=MOST_DEGREE).contains(&degree) { Ok(()) } else { Err(torque_refused("degree", degree, "from 1 to 8")) }
 }
 
 fn evaluated(forms: &[Form; 3], u: &Vector3<f64>) -> Result<Vector3<f64>, Error> {

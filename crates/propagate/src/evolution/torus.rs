@@ -42,11 +42,46 @@ pub(super) fn turned_axes(polhode: &ExcessPolhode, g: &Vector3<f64>) -> [Vector3
     [turned(Vector3::ith((axis + 1) % 3, 1.0)), turned(Vector3::ith((axis + 2) % 3, sign))]
 }
 
+/// The rates on the torus at a mean state, as Fourier coefficients, and the angles that they belong to.
+#[derive(Clone, Debug)]
+pub(super) struct TorusTerms {
+    pub(super) frame: MomentumFrame,
+    pub(super) polhode: ExcessPolhode,
+    pub(super) lag: Lag,
+    coefficients: Box<TorusGrid<Complex<f64>>>,
+}
+
+impl TorusTerms {
+    /// At a time, with the sources at their places.
+    ///
+    /// # Errors
+    /// As [`AveragedTorques::places`].
+    pub(super) fn new(
+        equations: &AveragedTorques,
+        time: f64,
+        (momentum, excess): (&Vector3<f64>, f64),
+    ) -> Result<Self, Error> {
+        let polhode = ExcessPolhode::new(&equations.moments, equations.family, excess);
+        let towards = equations.places(time)?.first().map_or_else(Vector3::z, |view| view.direction);
+        let frame = MomentumFrame::new(momentum, &towards);
+        let directions = std::array::from_fn(|point| polhode.direction(phase(point).sin_cos()));
+        let lag = Lag::new(&polhode, &directions);
+        let grid = torque_grid(equations, time, (&frame, &polhode, momentum.norm()), &directions, &lag)?;
+        Ok(Self { frame, polhode, lag, coefficients: fourier(&grid) })
+    }
+
+    /// The coefficients of e^(i(hℓ′ + my′)): of the torque along k, x̂ and ẑ, and of ξ̇.
+    pub(super) fn of(&self, [h, m]: [i32; 2]) -> [Complex<f64>; 4] {
+        let [h, m] = [h.rem_euclid(ALONG as i32), m.rem_euclid(ABOUT as i32)].map(|place| place as usize); // not negative
+        [0, 1, 2, 3].map(|function| self.coefficients[function][m][h])
+    }
+}
+
 /// Four functions on the torus: the torque along k, x̂ and ẑ, and ξ̇, by function, y′ and ℓ′.
-pub(super) type TorusGrid<T> = [[[T; ALONG]; ABOUT]; 4];
+type TorusGrid<T> = [[[T; ALONG]; ABOUT]; 4];
 
 /// The phase of a point of ℓ′, which is never 0.
-pub(super) fn phase(point: usize) -> f64 {
+fn phase(point: usize) -> f64 {
     TAU * (point as f64 + 0.5) / ALONG as f64
 }
 
@@ -56,7 +91,7 @@ pub(super) struct Lag(Vec<Complex<f64>>);
 
 impl Lag {
     /// From the rates of y at the points, over M.
-    pub(super) fn new(polhode: &ExcessPolhode, directions: &[Vector3<f64>; ALONG]) -> Self {
+    fn new(polhode: &ExcessPolhode, directions: &[Vector3<f64>; ALONG]) -> Self {
         let wobble = polhode.wobble_rate();
         let coefficient = |h: usize| {
             let term = |(point, g): (usize, &Vector3<f64>)| {
@@ -77,7 +112,7 @@ impl Lag {
 }
 
 /// The torque on the torus at a state, with the sources at their places.
-pub(super) fn torque_grid(
+fn torque_grid(
     equations: &AveragedTorques,
     time: f64,
     (frame, polhode, size): (&MomentumFrame, &ExcessPolhode, f64),
@@ -104,7 +139,7 @@ pub(super) fn torque_grid(
 }
 
 /// Fourier coefficients of e^(i(hℓ′ + my′)); a negative h or m stands at the end of its axis.
-pub(super) fn fourier(grid: &TorusGrid<f64>) -> Box<TorusGrid<Complex<f64>>> {
+fn fourier(grid: &TorusGrid<f64>) -> Box<TorusGrid<Complex<f64>>> {
     let zero = Complex::new(0.0, 0.0);
     let mut along = Box::new([[[zero; ALONG]; ABOUT]; 4]);
     let mut found = along.clone();

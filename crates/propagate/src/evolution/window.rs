@@ -3,13 +3,12 @@
 //! The mean state of each sample is compared with the averaged motion over the rotation alone. The difference grows linearly with time; its slope times the span is the error.
 
 use std::f64::consts::TAU;
-use std::sync::atomic::AtomicU32;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::averaged_scene::AveragedScene;
 use super::equations::{AveragedTorques, sorted_axes};
-use super::path::{AveragedPath, Node, Scaled, Watch};
+use super::path::{AveragedPath, Node, Scaled, UNREAD, Watch};
 use super::short_period::{ShortPeriod, sorted_attitude};
 use crate::error::Error;
 use crate::input::options::Method;
@@ -21,7 +20,6 @@ const SAMPLES: usize = 24;
 /// Tolerances of the integrations: far below the changes of second order of a torque of 1e-5 of M times the rate.
 const TOLERANCE: f64 = 1e-11;
 
-static UNREAD: AtomicU32 = AtomicU32::new(0);
 const UNWATCHED: Watch<'static> = Watch { stop: &GOING, done: &UNREAD, path: (0, 1) };
 
 /// Rates at which averages and full equations separate: of the angular momentum over its size, and of ξ.

@@ -20,6 +20,9 @@ const SYMMETRIC: f64 = 1e-12;
 /// Largest ratio C/A of moments. Beyond it C/A − 1 and its squares approach the limits of a double. No body is so thin: a needle of 1e50 : 1 has this ratio.
 const LARGEST_RATIO: f64 = 1e100;
 
+/// Difference of ratios of moments that is rounding.
+pub(crate) const SAME_RATIO: f64 = 1e-12;
+
 /// Principal moments of inertia [any unit] about body axes 1, 2, 3, or an inertia tensor about the user's axes.
 #[derive(Clone, Debug)]
 pub struct Body {
@@ -230,6 +233,12 @@ impl Body {
     /// The moments in double-double: those of a tensor are not rounded.
     pub(crate) fn precise_moments(&self) -> [DoubleDouble; 3] {
         std::array::from_fn(|axis| DoubleDouble { high: self.moments[axis], low: self.lows[axis] })
+    }
+
+    /// Whether another body has the same ratios of moments about body axes 1, 2, 3.
+    pub(crate) fn is_proportional(&self, other: &Self) -> bool {
+        let ratios = |body: &Self| body.moments.map(|moment| moment / body.sorted()[2]);
+        ratios(self).iter().zip(ratios(other)).all(|(ratio, other)| (ratio - other).abs() <= SAME_RATIO)
     }
 
     /// Whether all moments are equal: no body exerts a torque on a sphere.

@@ -4,10 +4,8 @@ use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
 
-use crate::error::Error;
-
-/// Difference of ratios of moments that is rounding.
-const SAME_RATIO: f64 = 1e-12;
+use super::body::Body;
+use crate::error::{Error, torque_refused};
 
 /// A state of a tumbling body, averaged over its rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,9 +27,9 @@ type PowerFunction = Arc<dyn Fn(&LossState) -> Result<f64, Error> + Send + Sync>
 #[derive(Clone)]
 pub struct EnergyLoss {
     power: PowerFunction,
-    /// The moments of the only body that it is for, whose largest one divides the power.
-    of_body: Option<[f64; 3]>,
-    /// What a caller made it of.
+    /// The only body that it is for, whose largest moment divides the power.
+    of_body: Option<Body>,
+    /// The object that a binding made it from.
     origin: Option<Arc<dyn Any + Send + Sync>>,
 }
 
@@ -54,21 +52,21 @@ impl EnergyLoss {
         Self { power: Arc::new(move |state: &LossState| power(state.excess)), of_body: None, origin: None }
     }
 
-    /// A power over the largest moment \[rate³\] of a body with these moments, up to a factor.
+    /// A power over the largest moment \[rate³\] of this body; its moments count up to a factor.
     pub(crate) fn of_body(
-        moments: [f64; 3],
+        body: Body,
         power: impl Fn(&LossState) -> Result<f64, Error> + Send + Sync + 'static,
     ) -> Self {
-        Self { power: Arc::new(power), of_body: Some(moments), origin: None }
+        Self { power: Arc::new(power), of_body: Some(body), origin: None }
     }
 
-    /// Keeps what a caller made it of.
+    /// Keeps the object that it was made from, for a binding.
     #[must_use]
     pub fn with_origin(self, origin: Arc<dyn Any + Send + Sync>) -> Self {
         Self { origin: Some(origin), ..self }
     }
 
-    /// What [`EnergyLoss::with_origin`] kept.
+    /// The object of [`EnergyLoss::with_origin`].
     pub fn origin(&self) -> Option<&(dyn Any + Send + Sync)> {
         self.origin.as_deref()
     }
@@ -81,30 +79,21 @@ impl EnergyLoss {
         let power = (self.power)(state)?;
         if !(power >= 0.0 && power.is_finite()) {
             let bound = format!("a power that is finite and at least 0 at the excess {}", state.excess);
-            return Err(refused(power.to_string(), bound));
+            return Err(torque_refused("dissipation", power, &bound));
         }
         Ok(if self.of_body.is_some() { power } else { power / largest })
     }
 
     /// # Errors
     /// - [`Error::Torque`] for a body of other ratios of moments.
-    pub(crate) fn check(&self, moments: [f64; 3]) -> Result<(), Error> {
-        let ratios = |mut moments: [f64; 3]| {
-            moments.sort_by(f64::total_cmp);
-            moments.map(|moment| moment / moments[2])
-        };
-        match self.of_body {
-            Some(own)
-                if ratios(own).iter().zip(ratios(moments)).any(|(one, other)| (one - other).abs() > SAME_RATIO) =>
-            {
-                let bound = format!("that of the body of the scene, whose moments are {moments:?}");
-                Err(refused(format!("of a body with the moments {own:?}"), bound))
+    pub(crate) fn check(&self, body: &Body) -> Result<(), Error> {
+        match &self.of_body {
+            Some(own) if !own.is_proportional(body) => {
+                let value = format!("of a body with the moments {:?}", own.moments());
+                let bound = format!("that of the body of the scene, whose moments are {:?}", body.moments());
+                Err(torque_refused("dissipation", value, &bound))
             }
             _ => Ok(()),
         }
     }
-}
-
-fn refused(value: String, bound: String) -> Error {
-    Error::Torque { argument: "dissipation", value, bound }
 }

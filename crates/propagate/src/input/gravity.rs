@@ -1,21 +1,16 @@
-//! The gravity field of a rotating body of degree 3 and 4, and the torque that a disturbing body exerts on it.
+//! The gravity field of a rotating body of degree 3 and 4.
 //!
 //! ```text
 //! U = (G M/r) Σ (R/r)^n Y_n(u),   Y_n = Σ (C_nm cos mλ + S_nm sin mλ) P_nm(sin φ)
-//! T = −(G m′/r³) M R² (R/r)^(n−2) u × ∇Y_n
 //! ```
 //!
-//! with the unit vector u to the disturbing body m′ in body axes and unnormalized coefficients. Of degree 2 it is the gravity gradient, which comes from the moments.
-
-use andoyer_series::Polynomial;
+//! with the direction u in body axes and unnormalized coefficients. Of degree 2 it is the gravity gradient, which comes from the moments.
 
 use super::principal_axes::{Square, UNIT, product};
-use super::torque::{SourcePath, Torque, TorqueSource};
-use crate::error::Error;
-use crate::orbit::disturbing_body::DisturbingBody;
+use crate::error::{Error, torque_refused};
 
 /// The harmonics of degree 3 and 4: their names, and u-polynomials on the unit sphere.
-const HARMONICS: [(&str, &str); 16] = [
+pub(super) const HARMONICS: [(&str, &str); 16] = [
     ("C30", "2.5*z^3 - 1.5*z"),
     ("C31", "7.5*x*z^2 - 1.5*x"),
     ("S31", "7.5*y*z^2 - 1.5*y"),
@@ -81,9 +76,9 @@ pub struct Gravity {
     radius: f64,
     inertia_factor: Option<f64>,
     /// M R² in the unit of the moments, once a body has it.
-    mass_radius_squared: f64,
+    pub(super) mass_radius_squared: f64,
     /// The rotation from components about the axes of the scene to those of the coefficients.
-    turn: Square,
+    pub(super) turn: Square,
 }
 
 /// The same coefficients, radius and inertia factor about the same axes; M R² belongs to the body.
@@ -104,17 +99,17 @@ impl Gravity {
         for (index, (name, value)) in coefficients.iter().enumerate() {
             if !known(name) {
                 let bound = "C20, C21, S21, C22, S22, or C and S of degree 3 and 4, unnormalized";
-                return Err(refused("coefficients", name, bound));
+                return Err(torque_refused("coefficients", name, bound));
             }
             if !value.is_finite() {
-                return Err(refused("coefficients", format!("{name}: {value}"), "finite"));
+                return Err(torque_refused("coefficients", format!("{name}: {value}"), "finite"));
             }
             if coefficients[..index].iter().any(|(other, _)| other == name) {
-                return Err(refused("coefficients", format!("{name} twice"), "different names"));
+                return Err(torque_refused("coefficients", format!("{name} twice"), "different names"));
             }
         }
         if !(radius > 0.0 && radius.is_finite()) {
-            return Err(refused("radius", radius, "positive and finite"));
+            return Err(torque_refused("radius", radius, "positive and finite"));
         }
         // In one order, so that equal fields are equal.
         let names = OF_INERTIA.into_iter().chain(HARMONICS.iter().map(|(name, _)| *name));
@@ -133,7 +128,7 @@ impl Gravity {
         if factor > 0.0 && factor.is_finite() {
             return Ok(Self { inertia_factor: Some(factor), ..self });
         }
-        Err(refused("inertia_factor", factor, "positive and finite"))
+        Err(torque_refused("inertia_factor", factor, "positive and finite"))
     }
 
     /// The field of a body by its name: "moon", that of JPL's DE421 about its principal axes, as in the constants of that ephemeris (J_n = −C_n0); radius in km.
@@ -142,7 +137,7 @@ impl Gravity {
     /// - [`Error::Torque`] for another name.
     pub fn named(name: &str) -> Result<Self, Error> {
         if !name.eq_ignore_ascii_case("moon") {
-            return Err(refused("name", name, "\"moon\""));
+            return Err(torque_refused("name", name, "\"moon\""));
         }
         Self::new(&OF_THE_MOON, 1738.0)
     }
@@ -160,7 +155,7 @@ impl Gravity {
             }
         }
         if !(radius > 0.0 && radius.is_finite()) {
-            return Err(refused("radius", radius, "positive and finite"));
+            return Err(torque_refused("radius", radius, "positive and finite"));
         }
         let [a, b, c] = semi_axes.map(|axis| axis / radius);
         let (zonal, sectoral) = ((2.0 * c * c - a * a - b * b) / 10.0, (a * a - b * b) / 20.0);
@@ -190,7 +185,7 @@ impl Gravity {
         self.inertia_factor
     }
 
-    fn coefficient(&self, name: &str) -> Option<f64> {
+    pub(super) fn coefficient(&self, name: &str) -> Option<f64> {
         self.coefficients.iter().find(|(own, _)| own == name).map(|(_, value)| *value)
     }
 
@@ -205,7 +200,7 @@ impl Gravity {
             (None, Some(zonal)) if -oblateness / zonal > 0.0 && (oblateness / zonal).is_finite() => -oblateness / zonal,
             _ => {
                 let bound = "given, C/(M R²) with the largest moment C, or C20 of the sign of (I11 + I22)/2 − I33";
-                return Err(refused("inertia_factor", "None", bound));
+                return Err(torque_refused("inertia_factor", "None", bound));
             }
         };
         Ok(Self { mass_radius_squared, ..self })
@@ -226,59 +221,4 @@ impl Gravity {
     pub(super) fn turned(&self, axes: &Square) -> Self {
         Self { turn: product(&self.turn, axes), ..self.clone() }
     }
-
-    /// The torques of degree 3 and 4 by a disturbing body.
-    ///
-    /// # Errors
-    /// - [`Error::Torque`] for an orbit without a semi-major axis.
-    pub(super) fn torques(&self, body: &DisturbingBody) -> Result<Vec<Torque>, Error> {
-        // G m′/R³
-        let (path, strength) = match body {
-            DisturbingBody::Orbit(orbit) => {
-                let Some(size) = orbit.asked_semi_major_axis() else {
-                    let bound = "with semi_major_axis, in the unit of the radius of the gravity field";
-                    return Err(refused("orbit", "without semi_major_axis", bound));
-                };
-                (SourcePath::Orbit(*orbit), orbit.strength() * (size / self.radius).powi(3))
-            }
-            DisturbingBody::Tabulated(table) => {
-                (SourcePath::Tabulated(table.clone()), table.gm() / self.radius / self.radius / self.radius)
-            }
-        };
-        let factor = -strength * self.mass_radius_squared;
-        let mut torques = Vec::new();
-        for degree in [3_u32, 4] {
-            let Some(polynomials) = self.polynomials(degree, factor)? else { continue };
-            let source = TorqueSource::new("u", path.clone()).falling(f64::from(degree) + 1.0, self.radius);
-            torques.push(Torque::of_shape(&polynomials, source)?.turned(&self.turn));
-        }
-        Ok(torques)
-    }
-
-    /// A factor times u × ∇Y_n; `None` if all coefficients are 0.
-    fn polynomials(&self, degree: u32, factor: f64) -> Result<Option<[Polynomial<f64>; 3]>, Error> {
-        let names = ["x", "y", "z"];
-        let parse = |text: &str| Polynomial::<f64>::parse(text, &names).map_err(Error::Series);
-        let own = HARMONICS.iter().filter(|(name, _)| name[1..2] == degree.to_string());
-        let given = own.filter_map(|(name, text)| Some((self.coefficient(name).filter(|value| *value != 0.0)?, text)));
-        let parts: Vec<String> = given.map(|(value, text)| format!("({:?})*({text})", value * factor)).collect();
-        if parts.is_empty() {
-            return Ok(None);
-        }
-        let harmonic = parse(&parts.join(" + "))?;
-        let component = |i: usize, k: usize| {
-            let mut sum = Polynomial::zero();
-            for (place, slope, sign) in [(i, k, 1.0), (k, i, -1.0)] {
-                let slope = harmonic.derivative(slope).map_err(Error::Series)?;
-                let product = parse(names[place])?.multiply(&slope).map_err(Error::Series)?;
-                product.terms().for_each(|(monomial, coefficient)| sum.add_term(monomial, &(sign * coefficient)));
-            }
-            Ok::<_, Error>(sum)
-        };
-        Ok(Some([component(1, 2)?, component(2, 0)?, component(0, 1)?]))
-    }
-}
-
-fn refused(argument: &'static str, value: impl ToString, bound: &str) -> Error {
-    Error::Torque { argument, value: value.to_string(), bound: bound.to_owned() }
 }

@@ -3,7 +3,9 @@
 pub(crate) mod body;
 mod catalogue;
 pub(crate) mod energy_loss;
+mod field_torque;
 pub(crate) mod gravity;
+mod gravity_torque;
 pub(crate) mod options;
 pub(crate) mod principal_axes;
 pub(crate) mod scene;

@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::energy_loss::EnergyLoss;
 use super::principal_axes::{Square, UNIT, along, product, rounded, transposed};
-use crate::error::Error;
+use crate::error::{Error, torque_refused};
 use crate::orbit::elements::Orbit;
 use crate::orbit::field::DipoleField;
 use crate::orbit::table::TabulatedOrbit;
@@ -136,27 +136,39 @@ impl TorqueSource {
         let identifier =
             name.chars().next().is_some_and(char::is_alphabetic) && name.chars().all(char::is_alphanumeric);
         if !identifier || name == "w" {
-            return Err(refused("sources", name, "named by letters and digits, a letter first, and not w"));
+            return Err(torque_refused("sources", name, "named by letters and digits, a letter first, and not w"));
         }
         let direction = matches!(path, SourcePath::Direction(_));
         if direction && *power != 0.0 {
-            return Err(refused("distance_powers", format!("{name}: {power}"), "absent: a direction has no distance"));
+            return Err(torque_refused(
+                "distance_powers",
+                format!("{name}: {power}"),
+                "absent: a direction has no distance",
+            ));
         }
         if !(power.is_finite() && power.abs() <= MOST_POWER) {
-            return Err(refused("distance_powers", format!("{name}: {power}"), "finite and at most 100 in magnitude"));
+            return Err(torque_refused(
+                "distance_powers",
+                format!("{name}: {power}"),
+                "finite and at most 100 in magnitude",
+            ));
         }
         let Some(reference_distance) = reference_distance else {
             let bound = "given, in the unit of length of semi_major_axis or of the table: the distance at which the texts have the torque";
-            return Err(refused("reference_distances", format!("{name}: none"), bound));
+            return Err(torque_refused("reference_distances", format!("{name}: none"), bound));
         };
         if !(*reference_distance > 0.0 && reference_distance.is_finite()) {
-            return Err(refused("reference_distances", format!("{name}: {reference_distance}"), "positive and finite"));
+            return Err(torque_refused(
+                "reference_distances",
+                format!("{name}: {reference_distance}"),
+                "positive and finite",
+            ));
         }
         match path {
             SourcePath::Direction(vector)
                 if !(vector.iter().all(|x| x.is_finite()) && vector.iter().any(|x| *x != 0.0)) =>
             {
-                Err(refused("sources", format!("{name}: {vector:?}"), "a finite vector other than 0"))
+                Err(torque_refused("sources", format!("{name}: {vector:?}"), "a finite vector other than 0"))
             }
             _ => Ok(()),
         }
@@ -207,7 +219,7 @@ impl Torque {
         for (k, source) in sources.iter().enumerate() {
             source.validate()?;
             if sources[..k].iter().any(|other| other.name == source.name) {
-                return Err(refused("sources", &source.name, "different names"));
+                return Err(torque_refused("sources", &source.name, "different names"));
             }
         }
         let names = sources.iter().map(|source| source.name.as_str()).chain(["w"]);
@@ -216,64 +228,6 @@ impl Torque {
         let texts = texts.map(str::to_owned);
         let (turn, terms) = (UNIT, [first?, second?, third?]);
         Ok(Self::Polynomial(Arc::new(PolynomialTorque { texts, sources, terms, turn, truncation: 0.0 })))
-    }
-
-    /// m × B of a magnetic moment [unit of the torque over that of the field] in a field: [`SourcePath::Field`], a table of its vectors, or a vector, which is a uniform field.
-    ///
-    /// # Errors
-    /// - [`Error::Torque`] for NaN or an infinity.
-    pub fn dipole(moment: [f64; 3], field: SourcePath) -> Result<Self, Error> {
-        match moment.iter().find(|part| !part.is_finite()) {
-            Some(part) => Err(refused("moment", part, "finite")),
-            None => Self::steered_dipole(moment.map(|part| format!("{part:?}")).each_ref().map(String::as_str), field),
-        }
-    }
-
-    /// The same of a moment with three polynomials in the rates w1, w2, w3 and in the components b1, b2, b3 of the unit vector along the field.
-    ///
-    /// # Errors
-    /// As [`Torque::polynomial`].
-    pub fn steered_dipole(moment: [&str; 3], field: SourcePath) -> Result<Self, Error> {
-        let names = ["b1", "b2", "b3", "w1", "w2", "w3"].map(str::to_owned);
-        for text in moment {
-            parsed(text, &names)?;
-        }
-        Self::of_field(cross(moment.map(str::to_owned), FIELD.map(str::to_owned)), field, 1.0)
-    }
-
-    /// (K(ω × B)) × B of eddy currents in a body with the magnetic tensor K [moment × rate/field²] (N. Ortiz Gómez and S. J. I. Walker 2015): it brakes the rotation across the field. ω is
-    /// relative to inertial space, so the field must turn slowly against the body.
-    ///
-    /// # Errors
-    /// - [`Error::Torque`] for NaN or an infinity.
-    pub fn eddy(tensor: [[f64; 3]; 3], field: SourcePath) -> Result<Self, Error> {
-        if let Some(part) = tensor.as_flattened().iter().find(|part| !part.is_finite()) {
-            return Err(refused("conductivity", part, "finite"));
-        }
-        let induced = cross(["w1", "w2", "w3"].map(str::to_owned), FIELD.map(str::to_owned));
-        let moment = tensor.map(|row| {
-            let parts = row.iter().zip(&induced).filter(|(factor, _)| **factor != 0.0);
-            let parts: Vec<String> = parts.map(|(factor, part)| format!("({factor:?})*({part})")).collect();
-            if parts.is_empty() { "0".to_owned() } else { parts.join(" + ") }
-        });
-        Self::of_field(cross(moment, FIELD.map(str::to_owned)), field, 2.0)
-    }
-
-    /// Polynomials in the direction of a field, times a power of its size.
-    fn of_field(texts: [String; 3], field: SourcePath, power: f64) -> Result<Self, Error> {
-        let (texts, power) = match field {
-            // A uniform field has its size in the texts.
-            SourcePath::Direction([x, y, z]) => {
-                let size = x.hypot(y).hypot(z).powf(power);
-                if !size.is_finite() {
-                    return Err(refused("field", format!("{:?}", [x, y, z]), "finite, with a square that is a double"));
-                }
-                (texts.map(|text| format!("({size:?})*({text})")), 0.0)
-            }
-            _ => (texts, -power),
-        };
-        let source = TorqueSource::new("b", field).falling(power, 1.0);
-        Self::polynomial(texts.each_ref().map(String::as_str), vec![source])
     }
 
     /// The torque of a shape: three polynomials in the direction to one source, and what they leave out.
@@ -305,7 +259,7 @@ impl Torque {
             Self::Polynomial(torque) if truncation >= 0.0 && truncation.is_finite() => {
                 Ok(Self::Polynomial(Arc::new(PolynomialTorque { truncation, ..(*torque).clone() })))
             }
-            _ => Err(refused("truncation", truncation, "of a polynomial, finite and at least 0")),
+            _ => Err(torque_refused("truncation", truncation, "of a polynomial, finite and at least 0")),
         }
     }
 
@@ -313,7 +267,7 @@ impl Torque {
     /// - [`Error::Torque`] for a number that is not finite.
     pub(crate) fn validate(&self) -> Result<(), Error> {
         let finite = |argument: &'static str, numbers: &[f64]| match numbers.iter().find(|x| !x.is_finite()) {
-            Some(value) => Err(refused(argument, value, "finite")),
+            Some(value) => Err(torque_refused(argument, value, "finite")),
             None => Ok(()),
         };
         match self {
@@ -397,11 +351,6 @@ impl PolynomialTorque {
         self.truncation
     }
 
-    /// Other terms of the same sources.
-    pub(super) fn with_terms(&self, terms: [Vec<(f64, Vec<u32>)>; 3]) -> Torque {
-        Torque::Polynomial(Arc::new(Self { terms, ..self.clone() }))
-    }
-
     pub(crate) fn terms(&self) -> &[Vec<(f64, Vec<u32>)>; 3] {
         &self.terms
     }
@@ -409,14 +358,6 @@ impl PolynomialTorque {
     pub(crate) fn turn(&self) -> Matrix3<f64> {
         rounded(&self.turn)
     }
-}
-
-/// The components of the unit vector along a field.
-const FIELD: [&str; 3] = ["b1", "b2", "b3"];
-
-/// The texts of a cross product.
-fn cross(one: [String; 3], other: [String; 3]) -> [String; 3] {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, k)| format!("({})*({}) - ({})*({})", one[i], other[k], one[k], other[i]))
 }
 
 /// A number whose 0 has no sign, so that equal torques print and hash alike.
@@ -434,16 +375,16 @@ pub(crate) fn rotors(torques: &[Torque]) -> Vector3<f64> {
 }
 
 /// The terms of one component, in the variables of these names.
-fn parsed(text: &str, names: &[String]) -> Result<Vec<(f64, Vec<u32>)>, Error> {
+pub(super) fn parsed(text: &str, names: &[String]) -> Result<Vec<(f64, Vec<u32>)>, Error> {
     // The algebra takes a few variables: those that the text has.
     let words: Vec<&str> = text.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
     let used: Vec<&str> = names.iter().map(String::as_str).filter(|name| words.contains(name)).collect();
     if used.len() > MOST_VARIABLES {
-        return Err(refused("texts", text, "at most 8 variables in a component"));
+        return Err(torque_refused("texts", text, "at most 8 variables in a component"));
     }
     let polynomial = Polynomial::<f64>::parse(text, &used).map_err(Error::Series)?;
     if let Some(degree) = polynomial.degree().filter(|degree| *degree > MOST_DEGREE) {
-        return Err(refused("texts", format!("degree {degree}"), "of degree 8 or less"));
+        return Err(torque_refused("texts", format!("degree {degree}"), "of degree 8 or less"));
     }
     let terms = polynomial.terms().map(|(monomial, coefficient)| {
         let mut exponents = vec![0; names.len()];
@@ -455,8 +396,4 @@ fn parsed(text: &str, names: &[String]) -> Result<Vec<(f64, Vec<u32>)>, Error> {
         (*coefficient, exponents)
     });
     Ok(terms.collect())
-}
-
-pub(crate) fn refused(argument: &'static str, value: impl ToString, bound: &str) -> Error {
-    Error::Torque { argument, value: value.to_string(), bound: bound.to_owned() }
 }

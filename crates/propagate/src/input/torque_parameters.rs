@@ -11,7 +11,7 @@ impl Torque {
     /// factor and, up to 60, its coefficients. Inner friction has none.
     ///
     /// # Errors
-    /// - None, for a torque that was made by its constructors.
+    /// Those of [`Torque::polynomial`]: none, for a torque that was made by it.
     pub(crate) fn parameters(&self) -> Result<Vec<(String, Self)>, Error> {
         let unit = |k: usize| std::array::from_fn(|axis| if axis == k { 1.0 } else { 0.0 });
         let vector = |name: &str, make: fn([f64; 3]) -> Self| {
@@ -29,7 +29,7 @@ impl Torque {
                 (0..9).map(|index| element(index / 3, index % 3)).collect()
             }
             Self::Dissipation(_) => Vec::new(),
-            Self::Polynomial(torque) if torque.moment().is_some() => {
+            Self::Polynomial(torque) if torque.is_dipole() => {
                 let source = &torque.sources()[0];
                 let dipole = |k: usize| {
                     let found = Self::dipole(unit(k), source.path().clone())?;
@@ -37,15 +37,15 @@ impl Torque {
                 };
                 (0..3).map(dipole).collect::<Result<_, _>>()?
             }
-            Self::Polynomial(torque) => torque.factor_and_coefficients(self),
+            Self::Polynomial(torque) => torque.factor_and_coefficients(self)?,
         })
     }
 }
 
 impl PolynomialTorque {
-    /// The moment of a dipole in a field, a torque m × b times the size of the field.
-    fn moment(&self) -> Option<[f64; 3]> {
-        let [source] = self.sources() else { return None };
+    /// Whether it is m × b of one source times its size: that of a field, a table of vectors, or a uniform one.
+    fn is_dipole(&self) -> bool {
+        let [source] = self.sources() else { return false };
         let in_field = match source.path() {
             SourcePath::Direction(_) => source.distance_power().0 == 0.0,
             SourcePath::Field(_) | SourcePath::Tabulated(_) => source.distance_power() == (-1.0, 1.0),
@@ -54,39 +54,37 @@ impl PolynomialTorque {
         let mut rows = [[0.0; 3]; 3];
         for (row, terms) in rows.iter_mut().zip(self.terms()) {
             for (coefficient, exponents) in terms {
-                let degree = exponents.iter().sum::<u32>();
-                let axis = exponents[..3].iter().position(|power| *power == 1)?;
-                if degree != 1 {
-                    return None;
+                match exponents[..3].iter().position(|power| *power == 1) {
+                    Some(axis) if exponents.iter().sum::<u32>() == 1 => row[axis] += coefficient,
+                    _ => return false,
                 }
-                row[axis] += coefficient;
             }
         }
-        let moment = [-rows[1][2], -rows[2][0], -rows[0][1]];
-        let antisymmetric = (0..3).all(|i| (0..3).all(|k| rows[i][k] == -rows[k][i]));
-        (in_field && antisymmetric).then_some(moment)
+        in_field && (0..3).all(|i| (0..3).all(|k| rows[i][k] == -rows[k][i]))
     }
 
-    fn factor_and_coefficients(&self, whole: &Torque) -> Vec<(String, Torque)> {
+    /// The factor of the whole torque, and the coefficients of its monomials.
+    fn factor_and_coefficients(&self, whole: &Torque) -> Result<Vec<(String, Torque)>, Error> {
         let mut found = vec![("factor".to_owned(), whole.clone())];
         let names = self.sources().iter().map(|source| source.name()).chain(["w"]);
         let names: Vec<String> = names.flat_map(|name| (1..=3).map(move |axis| format!("{name}{axis}"))).collect();
         let terms = self.terms();
         if terms.iter().map(Vec::len).sum::<usize>() > MOST_COEFFICIENTS {
-            return found;
+            return Ok(found);
         }
-        for axis in 0..3 {
-            for (_, exponents) in &terms[axis] {
+        for (axis, terms) in terms.iter().enumerate() {
+            for (_, exponents) in terms {
                 let powers = names.iter().zip(exponents).filter(|(_, power)| **power > 0);
                 let powers =
                     powers.map(|(name, power)| if *power == 1 { name.clone() } else { format!("{name}^{power}") });
                 let monomial = powers.collect::<Vec<_>>().join("*");
                 let monomial = if monomial.is_empty() { "1".to_owned() } else { monomial };
-                let mut alone: [Vec<(f64, Vec<u32>)>; 3] = [Vec::new(), Vec::new(), Vec::new()];
-                alone[axis].push((1.0, exponents.clone()));
-                found.push((format!("coefficient_{}:{monomial}", axis + 1), self.with_terms(alone)));
+                let mut texts = ["0"; 3];
+                texts[axis] = &monomial;
+                let alone = Torque::polynomial(texts, self.sources().to_vec())?;
+                found.push((format!("coefficient_{}:{monomial}", axis + 1), alone));
             }
         }
-        found
+        Ok(found)
     }
 }

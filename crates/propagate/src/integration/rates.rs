@@ -1,9 +1,8 @@
 //! The rates that orbits, tables and sources of torques bring into an integration, and whether a table is fine enough for it.
 
-use super::torques::falls;
 use crate::error::Error;
 use crate::input::scene::Scene;
-use crate::input::torque::{SourcePath, Torque};
+use crate::input::torque::{SourcePath, Torque, TorqueSource};
 use crate::numerics::scaling::{exponent, scaled};
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
@@ -137,4 +136,37 @@ pub(super) fn rates_of_table(table: &TabulatedOrbit) -> (f64, f64) {
     let (nearest, farthest) = distances.fold((f64::INFINITY, 0.0_f64), |(least, most), r| (least.min(r), most.max(r)));
     let rate = |distance: f64| (3.0 * table.gm() / distance).sqrt() / distance;
     (rate(nearest), rate(farthest))
+}
+
+/// The largest and the smallest (r₀/r)^p of a source.
+pub(super) fn falls(source: &TorqueSource, scene: &Scene) -> [f64; 2] {
+    let (power, reference) = source.distance_power();
+    let distances = match source.path() {
+        SourcePath::Orbit(orbit) => {
+            let size = orbit.asked_semi_major_axis().unwrap_or(1.0);
+            conic_distances(orbit, scene).map(|distance| size * distance)
+        }
+        SourcePath::Tabulated(table) => {
+            let distances = table.positions().iter().map(|[x, y, z]| x.hypot(*y).hypot(*z));
+            distances.fold([f64::INFINITY, 0.0], |[least, most], r| [r.min(least), r.max(most)])
+        }
+        // Between the equator at the apocentre and the pole at the pericentre.
+        SourcePath::Field(field) => {
+            let [near, far] = conic_distances(field.orbit(), scene);
+            [field.strength(far), 2.0 * field.strength(near)]
+        }
+        SourcePath::Direction(_) => return [1.0; 2],
+    };
+    let [one, other] = distances.map(|distance| (reference / distance).powf(power));
+    [one.max(other), one.min(other)]
+}
+
+/// The smallest and the largest distance on an orbit over the span of a scene, in semi-major axes.
+fn conic_distances(orbit: &Orbit, scene: &Scene) -> [f64; 2] {
+    let e = orbit.eccentricity();
+    if !orbit.is_hyperbola() {
+        return [1.0 - e, 1.0 + e];
+    }
+    let (start, stop) = scene.asked_span().unwrap_or_default();
+    [e - 1.0, orbit.hyperbolic_distance(start).max(orbit.hyperbolic_distance(stop))]
 }

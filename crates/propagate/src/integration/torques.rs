@@ -8,11 +8,11 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::interpolation::Table;
 use super::path_series::PathSeries;
+use super::rates::falls;
 use super::series::{ROWS, Scalars, Series, ZERO, product};
 use crate::input::scene::Scene;
 use crate::input::torque::{PolynomialTorque, SourcePath, Torque, TorqueSource};
 use crate::numerics::scaling::scaled;
-use crate::orbit::elements::Orbit;
 use crate::simd::instruction_set::InstructionSet;
 
 /// The torques of a scene in the unit of the integration, over the moments.
@@ -75,7 +75,7 @@ impl Torques {
         Self::of(&scene.acting_torques(), (scene, exponent), slopes)
     }
 
-    /// The same of some torques.
+    /// Of these torques alone; `None` for none.
     pub(super) fn of(torques: &[Torque], (scene, exponent): (&Scene, i32), slopes: bool) -> Option<Self> {
         if torques.is_empty() {
             return None;
@@ -384,37 +384,4 @@ impl Recipe {
         }
         self.back * torque
     }
-}
-
-/// The largest and the smallest (r₀/r)^p of a source.
-pub(super) fn falls(source: &TorqueSource, scene: &Scene) -> [f64; 2] {
-    let (power, reference) = source.distance_power();
-    let distances = match source.path() {
-        SourcePath::Orbit(orbit) => {
-            let size = orbit.asked_semi_major_axis().unwrap_or(1.0);
-            conic_distances(orbit, scene).map(|distance| size * distance)
-        }
-        SourcePath::Tabulated(table) => {
-            let distances = table.positions().iter().map(|[x, y, z]| x.hypot(*y).hypot(*z));
-            distances.fold([f64::INFINITY, 0.0], |[least, most], r| [r.min(least), r.max(most)])
-        }
-        // Between the equator at the apocentre and the pole at the pericentre.
-        SourcePath::Field(field) => {
-            let [near, far] = conic_distances(field.orbit(), scene);
-            [field.strength(far), 2.0 * field.strength(near)]
-        }
-        SourcePath::Direction(_) => return [1.0; 2],
-    };
-    let [one, other] = distances.map(|distance| (reference / distance).powf(power));
-    [one.max(other), one.min(other)]
-}
-
-/// The smallest and the largest distance on an orbit over the span of a scene, in semi-major axes.
-fn conic_distances(orbit: &Orbit, scene: &Scene) -> [f64; 2] {
-    let e = orbit.eccentricity();
-    if !orbit.is_hyperbola() {
-        return [1.0 - e, 1.0 + e];
-    }
-    let (start, stop) = scene.asked_span().unwrap_or_default();
-    [e - 1.0, orbit.hyperbolic_distance(start).max(orbit.hyperbolic_distance(stop))]
 }

@@ -10,7 +10,7 @@ use andoyer_double::DoubleDouble;
 use nalgebra::Vector3;
 
 use super::elements::Orbit;
-use crate::error::Error;
+use crate::error::{Error, torque_refused};
 use crate::numerics::phase::Phase;
 
 /// The field of a dipole in the centre of a planet, at a body on an orbit about it; its axis may turn with the planet about inertial axis 3.
@@ -47,18 +47,18 @@ impl DipoleField {
     pub fn new(orbit: Orbit, radius: f64, equatorial: f64) -> Result<Self, Error> {
         let positive = |argument, value: f64| match value > 0.0 && value.is_finite() {
             true => Ok(()),
-            false => Err(refused(argument, value, "positive and finite")),
+            false => Err(torque_refused(argument, value, "positive and finite")),
         };
         positive("radius", radius)?;
         positive("equatorial", equatorial)?;
         let Some(size) = orbit.asked_semi_major_axis() else {
             let bound = "with semi_major_axis, in the unit of radius";
-            return Err(refused("orbit", "without semi_major_axis", bound));
+            return Err(torque_refused("orbit", "without semi_major_axis", bound));
         };
         let ratio = radius / size;
         let bound = "such that the field on the orbit is a normal double";
         if !(equatorial * ratio.powi(3)).is_normal() || !ratio.powi(3).is_normal() {
-            return Err(refused("radius", radius, bound));
+            return Err(torque_refused("radius", radius, bound));
         }
         Ok(Self { orbit, ratio, radius, equatorial, axis: [0.0, 0.0, 1.0], rotation_rate: 0.0 })
     }
@@ -71,7 +71,7 @@ impl DipoleField {
         let vector = Vector3::from(axis);
         let largest = vector.amax();
         if !(vector.iter().all(|part| part.is_finite()) && largest > 0.0) {
-            return Err(refused("axis", format!("{axis:?}"), "a finite vector other than 0"));
+            return Err(torque_refused("axis", format!("{axis:?}"), "a finite vector other than 0"));
         }
         Ok(Self { axis: axis.map(|part| part + 0.0), ..self })
     }
@@ -84,7 +84,7 @@ impl DipoleField {
         if rate.is_finite() {
             return Ok(Self { rotation_rate: rate + 0.0, ..self });
         }
-        Err(refused("rotation_rate", rate, "finite"))
+        Err(torque_refused("rotation_rate", rate, "finite"))
     }
 
     /// The orbit.
@@ -107,7 +107,7 @@ impl DipoleField {
         self.axis
     }
 
-    /// The same as a unit vector.
+    /// The unit vector of [`DipoleField::moment_axis`].
     pub(crate) fn unit_axis(&self) -> [f64; 3] {
         let vector = Vector3::from(self.axis);
         (vector / vector.amax()).normalize().into()
@@ -148,8 +148,4 @@ impl DipoleField {
         let turns = angle / turn;
         Phase::new(self.rotation_rate.into(), (turns - DoubleDouble::from(turns.high.round())) * turn)
     }
-}
-
-fn refused(argument: &'static str, value: impl ToString, bound: &str) -> Error {
-    Error::Torque { argument, value: value.to_string(), bound: bound.to_owned() }
 }

@@ -49,7 +49,7 @@ impl Parameter {
             Self::Moments => numbered("moment"),
             Self::Orbit(_) => ELEMENTS.map(|name| format!("{name}{index}")).to_vec(),
             Self::Attraction(_) => vec![format!("attraction{index}")],
-            // Those of a torque are its own.
+            // `torque_names` has them.
             Self::Torque(_) => Vec::new(),
         }
     }

@@ -7,10 +7,10 @@ use rayon::prelude::*;
 
 use super::free::{self, Preparation};
 use super::{averaged, integrated, libration};
-use crate::error::{Error, Kind};
+use crate::error::{Error, Kind, torque_refused};
 use crate::input::options::{Averaging, Level, Method};
 use crate::input::scene::Scene;
-use crate::input::torque::{Torque, refused};
+use crate::input::torque::Torque;
 use crate::integration::integrated::Integrated;
 use crate::integration::integrator::MOST_STEPS;
 use crate::integration::prospect::{is_brief, prospect};
@@ -110,7 +110,7 @@ pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> V
 fn choice(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Choice, Error> {
     if scene.asked_torques().iter().any(|torque| matches!(torque, Torque::Dissipation(_))) {
         let bound = "absent: inner friction is averaged, by `evolve` and `drift`; a rigid body that is integrated has no such torque";
-        return Err(refused("torques", "dissipation", bound));
+        return Err(torque_refused("torques", "dissipation", bound));
     }
     let integration = |scene: Scene, reason: String| {
         Ok(Choice::Integrate(Box::new(Integration { scene, reason, by_theory: None, locked: None })))

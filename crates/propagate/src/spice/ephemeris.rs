@@ -13,8 +13,8 @@ const MOST: usize = 1 << 20;
 /// Most intervals in which a table is compared with the ephemeris, evenly among all, and the places within them.
 const COMPARED: usize = 4096;
 const PLACES: [f64; 3] = [0.2, 0.5, 0.8];
-/// Below this error more rows bring one less, but for jumps and rounding.
-const CONVERGING: f64 = 1e-3;
+/// Errors below this may be rounding.
+const ROUNDING: f64 = 1e-13;
 /// Between two rows the polynomials have the degree 11.
 const ORDER: f64 = 12.0;
 
@@ -52,7 +52,7 @@ pub enum EphemerisError {
         "error = {error:e}: a table of {rows} rows from this ephemeris has {found:.1e}; ask for that, or for a shorter span"
     )]
     Coarse {
-        /// As asked for.
+        /// The error that was asked for.
         error: f64,
         /// Rows of the last table.
         rows: usize,
@@ -82,19 +82,19 @@ impl TabulatedOrbit {
             }
         }
         let mut intervals = FIRST;
-        let (mut last, mut before) = (f64::INFINITY, 0);
+        let mut last = f64::INFINITY;
         loop {
             let table = request.table(ephemeris, intervals)?;
             let found = request.largest_error(ephemeris, &table)?;
             if found <= request.error {
                 return Ok(table);
             }
-            // More rows that bring nothing: the segments of the file have a jump, or its numbers are rounded.
-            if intervals >= MOST || (found > 0.5 * last && found < CONVERGING && 2 * intervals >= 3 * before) {
+            // At the rounding of positions more rows bring nothing.
+            if intervals >= MOST || (found < ROUNDING && found > 0.5 * last) {
                 return Err(EphemerisError::Coarse { error: request.error, rows: intervals + 1, found });
             }
             let growth = (found / request.error).powf(1.0 / ORDER).clamp(1.1, 2.0);
-            (last, before) = (found, intervals);
+            last = found;
             intervals = ((intervals as f64 * growth).ceil() as usize).min(MOST);
         }
     }

@@ -30,7 +30,7 @@ def is_attitude_file(path: str) -> bool:
 
 
 def elements_of(path: str) -> Any:
-    """Whose orbit a scene file has, as it says beside the frame of its state; None where it does not, or where the frame is that of another than the first body."""
+    """The `elements_of` of the state of a scene file; None if it has none, or if its frame is that of a body after the first."""
     file = Path(path)
     # A pipe can be read only once, and an unreadable file is refused where it is solved.
     try:
