@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::error::Error;
+use crate::input::options::Served;
 use crate::input::scene::Scene;
 use crate::motion::solved::{Given, Motion};
 use crate::simd::halt::GOING;
@@ -87,8 +88,12 @@ impl Scene {
     }
 }
 
-/// The motions of several scenes, each as [`Scene::solve`] has it but for rounding: those that are integrated are integrated together.
-pub(crate) fn disturbed(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> Vec<Result<Motion, Error>> {
+/// The motions of several scenes, each as [`Scene::solve`] has it but for rounding: those that are integrated are integrated together, over as much of their spans as is asked for.
+pub(crate) fn disturbed(
+    scenes: Vec<Result<Scene, Error>>,
+    served: Served,
+    stop: &AtomicBool,
+) -> Vec<Result<Motion, Error>> {
     let mut given = Vec::with_capacity(scenes.len());
     let about_own_axes = |scene: Result<Scene, Error>| {
         let (scene, own) = match scene.and_then(|scene| scene.about_own_axes()) {
@@ -98,6 +103,6 @@ pub(crate) fn disturbed(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) ->
         given.push(own);
         scene
     };
-    let motions = choose::motions(scenes.into_iter().map(about_own_axes).collect(), stop);
+    let motions = choose::motions(scenes.into_iter().map(about_own_axes).collect(), served, stop);
     motions.into_iter().zip(given).map(|(motion, given)| motion.map(|motion| Motion { given, ..motion })).collect()
 }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::free::{self, Preparation};
 use super::{averaged, integrated, libration};
 use crate::error::{Error, Kind, torque_refused};
-use crate::input::options::{Averaging, Level, Method};
+use crate::input::options::{Averaging, Level, Method, Served};
 use crate::input::scene::Scene;
 use crate::input::torque::Torque;
 use crate::integration::integrated::Integrated;
@@ -86,8 +86,12 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> 
     }
 }
 
-/// The motions of several scenes about principal axes. Those that are integrated are integrated together.
-pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> Vec<Result<Motion, Error>> {
+/// The motions of several scenes about principal axes. Those that are integrated are integrated together, over as much of their spans as is asked for.
+pub(super) fn motions(
+    scenes: Vec<Result<Scene, Error>>,
+    served: Served,
+    stop: &AtomicBool,
+) -> Vec<Result<Motion, Error>> {
     let tables = SeriesTables::default();
     let choose = |scene: Result<Scene, Error>| choice(scene?, &tables, stop);
     let choices: Vec<_> = shared(scenes.len(), |threads| match threads {
@@ -98,7 +102,7 @@ pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> V
         Ok(Choice::Integrate(chosen)) => Some((&chosen.scene, &chosen.reason[..])),
         _ => None,
     });
-    let mut found = several(&chosen.collect::<Vec<_>>(), stop).into_iter();
+    let mut found = several(&chosen.collect::<Vec<_>>(), served, stop).into_iter();
     let mut finished = |choice| match choice {
         Choice::Solved(motion) => Ok(*motion),
         Choice::Integrate(chosen) => chosen.finished(found.next().unwrap_or(Err(Error::Stopped)), &tables),

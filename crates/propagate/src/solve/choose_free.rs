@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::free::{self, Preparation};
 use crate::error::Error;
-use crate::input::options::Method;
+use crate::input::options::{Method, Served};
 use crate::input::scene::Scene;
 use crate::motion::solved::Motion;
 use crate::torque_free::polhode::Polhode;
@@ -45,7 +45,7 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, _: &AtomicBool) -> Res
 }
 
 /// The motions of several scenes about principal axes.
-pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> Vec<Result<Motion, Error>> {
+pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, _: Served, stop: &AtomicBool) -> Vec<Result<Motion, Error>> {
     let tables = SeriesTables::default();
     scenes.into_iter().map(|scene| scene.and_then(|scene| motion(scene, &tables, stop))).collect()
 }

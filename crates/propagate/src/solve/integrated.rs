@@ -37,7 +37,7 @@ pub(super) fn motion(
     plan.method = Method::Integrated;
     plan.order = motion.order();
     plan.fastest = plan.fastest.max(motion.fastest());
-    plan.integration = Some(motion.plan());
+    plan.integration = Some(motion.plan(scene.state().epoch));
     plan.skipped.extend(Some(reason).filter(|reason| !reason.is_empty()));
     if let Some(order) = scene.asked_order() {
         plan.skipped.push(format!("order {order}, which was asked for: it is one of the series"));

@@ -589,6 +589,9 @@ class Plan:
     def resonance(self) -> Fraction | None:
         """The resonance of a libration, in rotations an orbit: a Fraction; None for the other methods."""
     @property
+    def known(self) -> tuple[float, float] | None:
+        """The first and the last time at which something is known of the attitude, of a member of an ensemble with ``errors="nan"`` that is not served over its whole span; otherwise None."""
+    @property
     def harmonics(self) -> int:
         """The number of harmonics of a libration; otherwise the highest multiple of the anomaly ℓ′ in the evaluation, or 0 if the method has no harmonics."""
     @property
