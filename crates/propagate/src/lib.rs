@@ -80,7 +80,6 @@ pub use motion::solved::{Motion, Sample};
 pub use orbit::elements::Orbit;
 pub use orbit::table::TabulatedOrbit;
 pub use torque_free::mode::Mode;
-pub use torque_free::series::tables::SeriesTables;
 
 pub mod options {
     //! How a scene is solved, and what its periods belong to.

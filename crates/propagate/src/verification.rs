@@ -21,7 +21,6 @@ use crate::orbit::disturbing_body::DisturbingBody;
 use crate::simd::halt::GOING;
 use crate::torque_free::error_budget::DEFAULT_ROTATIONS;
 use crate::torque_free::mode::Mode;
-use crate::torque_free::series::tables::SeriesTables;
 
 /// Default tolerance of the integration, relative to the error bound of a motion by theory.
 const WELL_BELOW: f64 = 0.01;
@@ -168,7 +167,7 @@ impl Motion {
             return Err(Error::Samples { value: samples, least, most });
         }
         let span = self.verified_span(options.span)?;
-        let reference = self.independent(span, options.tolerance)?.solve_until(&SeriesTables::default(), stop)?;
+        let reference = self.independent(span, options.tolerance)?.solve_until(stop)?;
         let last = samples - 1;
         let time = |k: usize| if k == last { span.1 } else { span.0 + (span.1 - span.0) * (k as f64 / last as f64) };
         let times: Vec<f64> = (0..samples).map(time).collect();

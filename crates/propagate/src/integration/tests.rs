@@ -95,7 +95,7 @@ fn the_guess_of_the_bound_is_near_the_bound_and_not_above_it_in_the_median() {
         .map(|scene| {
             let (guess, steps) = prospect(&scene).expect("a guess");
             let motion = Integrated::new(&scene.tolerance(1e-15), "", &AtomicBool::new(false)).expect("a motion");
-            assert!(motion.plan().steps as f64 <= 1.3 * steps, "{} and {steps}", motion.plan().steps);
+            assert!(motion.plan(0.0).steps as f64 <= 1.3 * steps, "{} and {steps}", motion.plan(0.0).steps);
             guess / motion.error
         })
         .collect();
