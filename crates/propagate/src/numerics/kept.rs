@@ -156,7 +156,8 @@ mod tests {
         assert!([1, 2].iter().all(|key| kept.get(key).is_some()) && kept.get(&3).is_none());
         kept.keep(2, Arc::new(vec![0; 4]));
         kept.keep(2, Arc::new(vec![0; 4]));
-        assert_eq!((kept.results().memory, kept.results().by_key.len()), (14, 2));
+        let results = kept.results();
+        assert_eq!((results.memory, results.by_key.len()), (14, 2));
     }
 
     #[test]
