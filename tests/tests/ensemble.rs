@@ -182,7 +182,9 @@ fn motions_under_a_torque_are_kept_and_not_those_of_other_options() {
     let ensemble = Ensemble::new(vec![[1.0, 1.02, 1.05]; 3], vec![[0.0, 0.0, 0.0, 1.0]; 3], rates).expect("members");
     let ensemble = ensemble.orbits(vec![Some(sun), None, Some(sun)]).expect("orbits").span(0.0, 1e3).tolerance(1e-6);
     let plans = |ensemble: &Ensemble| ensemble.plans().expect("plans");
-    let keeps = |ensemble: &Ensemble, count: usize| format!("{ensemble:?}").contains(&format!("kept: {count} motions"));
+    let keeps = |ensemble: &Ensemble, count: usize| {
+        format!("{ensemble:?}").contains(&format!("kept: KeptMotions({count} results"))
+    };
     let first = plans(&ensemble);
     // Those under a torque, once for all copies.
     assert!(keeps(&ensemble, 2) && keeps(&ensemble.clone().threads(1), 2), "{ensemble:?}");
