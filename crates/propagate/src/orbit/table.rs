@@ -25,6 +25,8 @@ const LEAST: usize = 2;
 const PROBES: usize = 15;
 /// r² × acceleration over gm of units that do not fit, from a mass ratio of 0.3 to one of 100: the Moon's position from the Earth with the Moon's gm has 82.
 const DOUBTFUL: [[f64; 2]; 2] = [[1e-12, 1e-7], [3e8, 1e11]];
+/// Acceleration × step² over the distance of a path that is not straight.
+const STRAIGHT: f64 = 1e-10;
 /// The most coefficients of a polynomial.
 pub(crate) const COEFFICIENTS: usize = 2 * ROWS;
 
@@ -155,10 +157,12 @@ impl TabulatedOrbit {
         let last = self.times.len() - 1;
         let mut ratios: Vec<f64> = (0..last)
             .step_by(last.div_ceil(PROBES))
-            .filter_map(|row| self.motion(middle(row)).ok())
-            .map(|[position, _, acceleration]| {
+            .filter_map(|row| Some((row, self.motion(middle(row)).ok()?)))
+            .filter_map(|(row, [position, _, acceleration])| {
                 let (distance, pull) = (Vector3::from(position).norm(), Vector3::from(acceleration).norm());
-                distance * pull / self.gm * distance
+                let step = self.times[row + 1] - self.times[row];
+                // A straight path has the acceleration of its rounding errors.
+                (step * pull * step > STRAIGHT * distance).then(|| distance * pull / self.gm * distance)
             })
             .collect();
         ratios.sort_by(f64::total_cmp);
