@@ -11,6 +11,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::input::gravity::Gravity;
 use crate::input::options::Method;
 use crate::input::principal_axes::NEXT_AXES;
 use crate::input::scene::Scene;
@@ -199,7 +200,7 @@ impl Motion {
         };
         let torques: Vec<_> = given.asked_torques().iter().map(|torque| torque.turned(&NEXT_AXES)).collect();
         let mut scene = given.starting_from(given.body().about_next_axes()?, state).torques(torques);
-        if given.body().is_sphere() && given.body().gravity().is_none() {
+        if given.body().is_sphere() && !given.body().gravity().is_some_and(Gravity::acts) {
             // No body exerts a torque on a homogeneous sphere, and a table need not reach over the span.
             scene = scene.disturbing(Vec::<DisturbingBody>::new());
         }

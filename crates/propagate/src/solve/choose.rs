@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::free::{self, Preparation};
 use super::{averaged, integrated, libration};
 use crate::error::{Error, Kind, torque_refused};
+use crate::input::gravity::Gravity;
 use crate::input::options::{Averaging, Level, Method, Served};
 use crate::input::scene::Scene;
 use crate::input::torque::Torque;
@@ -188,7 +189,7 @@ fn by_theory(scene: Scene) -> Result<Motion, Error> {
 fn beyond_theory(scene: &Scene) -> Option<String> {
     match scene.asked_disturbing() {
         _ if !scene.asked_torques().is_empty() => Some("a torque beside the gravity gradient is integrated".to_owned()),
-        [_, ..] if scene.body().gravity().is_some() => {
+        [_, ..] if scene.body().gravity().is_some_and(Gravity::acts) => {
             Some("a gravity field of degree 3 or 4 is integrated".to_owned())
         }
         _ if scene.body().is_sphere() => None,
