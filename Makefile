@@ -180,6 +180,10 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 nature: $(VENV)/kernels  ## a rigid Earth and Moon at DE440 positions beside REN-2000 and DE421: docs/data/nature-*.csv and their pictures; a quarter of an hour
 	$(BIN)/python tests/nature/moon.py
 	$(BIN)/python tests/nature/moon_terms.py
+	for language in c:c rust:rs python:py javascript:js; do \
+	  cargo run --release --locked --quiet -p andoyer-series --example moon_table -- $${language%:*} < docs/data/nature-moon-terms.csv > docs/data/moon_orientation.$${language#*:} || exit 1; \
+	done
+	$(BIN)/python tests/nature/moon_rivals.py
 	$(BIN)/python tests/nature/earth.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes and of 1000 tensors against their bounds, and of 200 averaged motions against their estimate; five minutes
