@@ -128,7 +128,7 @@ def main() -> int:
             )
         )
         described = {"series": name, "size": terms, "axes": what, "days": str(len(times)), **measured}
-        rows.append({**described, "mean": " ".join(f"{value:.1f}" for value in mean)})
+        rows.append({**described, "mean": " ".join(f"{round(value, 1) + 0.0:.1f}" for value in mean)})
         print(", ".join(f"{key} {value}" for key, value in rows[-1].items()), flush=True)
     write(DATA / "nature-moon-rivals.csv", rows)
     return int(float(rows[0]["largest"]) > 1)
