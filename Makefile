@@ -9,7 +9,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost libration-reach nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
+.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost libration-reach nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-ephemeris rivals-messages gravity docs docs-test package release-check wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -181,6 +181,10 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 nature: $(VENV)/kernels  ## a rigid Earth and Moon at DE440 positions beside REN-2000 and DE421: docs/data/nature-*.csv and their pictures; a quarter of an hour
 	$(BIN)/python tests/nature/moon.py
 	$(BIN)/python tests/nature/moon_terms.py
+	for language in c:c rust:rs python:py javascript:js; do \
+	  cargo run --release --locked --quiet -p andoyer-series --example moon_table -- $${language%:*} < docs/data/nature-moon-terms.csv > docs/data/moon_orientation.$${language#*:} || exit 1; \
+	done
+	$(BIN)/python tests/nature/moon_rivals.py
 	$(BIN)/python tests/nature/earth.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes and of 1000 tensors against their bounds, and of 200 averaged motions against their estimate; five minutes
@@ -188,7 +192,7 @@ bounds: $(VENV)/installed  ## errors of 3000 random scenes and of 1000 tensors a
 	$(BIN)/python tests/stress/tensors.py
 	$(BIN)/python tests/stress/evolutions.py
 
-rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-driven rivals-partials rivals-messages  ## the tables of ratios, in out/ too
+rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-driven rivals-partials rivals-ephemeris rivals-messages  ## the tables of ratios, in out/ too
 
 rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine
 	$(RIVALS)/bin/python benches/rivals/normal_form.py --data docs/data/rivals-normal-form.csv
@@ -215,6 +219,10 @@ rivals-driven: $(RIVALS)/propagation $(RIVALS)/installed  ## normal forms with a
 
 rivals-partials: $(RIVALS)/propagation $(RIVALS)/installed  ## derivatives against heyoka's variational equations
 	$(RIVALS)/bin/python benches/rivals/partials.py --output docs/data/rivals-partials.csv
+
+rivals-ephemeris: $(VENV)/kernels $(VENV)/tested  ## states of DE440 against SpiceyPy and jplephem
+	cargo build --release --locked --quiet -p andoyer-kernels --example states
+	$(BIN)/python benches/rivals/ephemeris.py --output docs/data/rivals-ephemeris.csv
 
 rivals-messages: $(RIVALS)/installed $(RIVALS)/orekit/ready  ## attitude ephemeris messages as we write them, read by Orekit; EXAMPLES=FOLDER: other messages, read by both
 	$(RIVALS)/bin/python -m pip install --quiet astropy

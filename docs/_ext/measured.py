@@ -301,6 +301,35 @@ def nature_moon_terms() -> list[str]:
     return markdown(["terms", 'largest angle left, 1950 to 2050 ["]'], ([str(count), terms[count - 1]["left"]] for count in range(10, len(terms) + 1, 10)))
 
 
+def nature_moon_table() -> list[str]:
+    """The table of the Moon's orientation, largest terms first in each part."""
+    header = ["angle", "period [d]", "rate [rad/s], or power", 'sine, x or longitude ["]', 'sine, y ["]', 'cosine, x or longitude ["]', 'cosine, y ["]']
+    return markdown(
+        header, ([row[name] for name in ("angle", "period_days", "rate", "sine_1", "sine_2", "cosine_1", "cosine_2")] for row in read("nature-moon-terms.csv"))
+    )
+
+
+def nature_moon_rivals() -> list[str]:
+    """Differences of three series from the orientation of DE421 on the same days."""
+    header = [
+        "series",
+        "size",
+        "axes",
+        'largest ["]',
+        'root mean square ["]',
+        'without the mean rotation: largest ["]',
+        'root mean square ["]',
+        'mean rotation about axes 1, 2, 3 ["]',
+    ]
+    return markdown(header, ([value for name, value in row.items() if name != "days"] for row in read("nature-moon-rivals.csv")))
+
+
+def rivals_ephemeris() -> list[str]:
+    """Times of states from DE440 by three readers, and how far the positions are from those of SpiceyPy."""
+    header = ["bodies", "times", "reader", "100,000 states [ms]", "ratio to ours", "largest difference of a position from SpiceyPy's, over the distance"]
+    return markdown(header, (list(row.values()) for row in read("rivals-ephemeris.csv")))
+
+
 def nature_earth() -> list[str]:
     """Terms of the nutation of a rigid Earth, published and found: the main ones over the longest span."""
     rows = read("nature-earth.csv")
@@ -337,8 +366,11 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "light-curves": light_curves,
     "nature-earth": nature_earth,
     "nature-moon": nature_moon,
+    "nature-moon-rivals": nature_moon_rivals,
+    "nature-moon-table": nature_moon_table,
     "nature-moon-terms": nature_moon_terms,
     "nature-nutation": nature_nutation,
+    "rivals-ephemeris": rivals_ephemeris,
     "rivals-gradient": rivals_gradient,
     "rivals-integration": rivals_integration,
     "rivals-partials": rivals_partials,
