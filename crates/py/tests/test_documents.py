@@ -131,6 +131,12 @@ def test_errors_that_the_pages_name_exist_and_are_raised_for_what_they_say():
         moon.solve()
 
 
+def test_cards_of_the_front_page_are_of_equal_length():
+    text = (REPOSITORY / "docs/index.md").read_text(encoding="utf-8")
+    cards = [re.sub(r"\]\([^)]*\)|[\[*]", "", card) for card in re.findall(r"\{container\} card\n!\[.*\n\n(.*)\n::::\n", text)]
+    assert len(cards) == 4 and max(map(len, cards)) <= 1.1 * min(map(len, cards)), [len(card) for card in cards]
+
+
 def test_troubleshooting_names_every_error_of_the_crates():
     page = (REPOSITORY / "docs/troubleshooting.md").read_text(encoding="utf-8")
     sources = [(REPOSITORY / f"crates/{crate}/src/error.rs").read_text(encoding="utf-8") for crate in ("propagate", "series")]
