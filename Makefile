@@ -199,6 +199,7 @@ rivals-products: $(RIVALS)/normal-form  ## products of polynomials against pytho
 rivals-propagation: $(RIVALS)/propagation $(RIVALS)/installed $(RIVALS)/orekit/ready  ## propagation against heyoka, SciPy, ode_solvers and, where there is Maven, Orekit
 	RUSTFLAGS='-C target-cpu=native' cargo build --release --locked --quiet --manifest-path benches/rivals/ode_solvers/Cargo.toml --target-dir $(RIVALS)/ode_solvers
 	$(RIVALS)/bin/python benches/rivals/propagation.py --data docs/data/rivals-propagation.csv --ode-solvers $(RIVALS)/ode_solvers/release/ode-solvers-rival --orekit $(RIVALS)/orekit
+	$(RIVALS)/bin/python benches/rivals/coming_from.py
 
 rivals-gradient: $(RIVALS)/propagation $(RIVALS)/installed  ## the gravity gradient against heyoka
 	$(RIVALS)/bin/python benches/rivals/gradient.py --output docs/data/rivals-gradient.csv
