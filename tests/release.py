@@ -55,6 +55,8 @@ def expected() -> Iterator[tuple[Path, str]]:
     released = re.search(rf"(?m)^## \[{re.escape(VERSION)}\] - (\S+)$", text("CHANGELOG.md"))
     date = f"\ndate-released: {released[1]}" if released else ""
     cited = re.sub(r"(?m)^version: .*$(\ndate-released: .*$)?", f"version: {VERSION}{date}", text("CITATION.cff"))
+    recipe = re.sub(r'(?m)^  version: ".*"$', f'  version: "{VERSION}"', text("recipe/recipe.yaml"))
+    yield ROOT / "recipe/recipe.yaml", re.sub(r"(?m)^  repository: .*$", f"  repository: {ADDRESS}", recipe)
     yield ROOT / "CITATION.cff", re.sub(r"(?m)^repository-code: .*$", f"repository-code: {ADDRESS}", cited)
     date = f'\n  "datePublished": "{released[1]}",' if released else ""
     meta = re.sub(r'"version": "[^"]*",(\n  "datePublished": "[^"]*",)?', f'"version": "{VERSION}",{date}', text("codemeta.json"))

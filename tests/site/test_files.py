@@ -35,3 +35,13 @@ def test_numbers_and_short_cells_stay_in_one_piece():
     page = (SITE / "gravity-gradient.html").read_text(encoding="utf-8")
     assert '<span class="unbroken">1e-4</span>' in page
     assert re.search(r'<td class="unbroken"><p>[\d.]+e-\d+</p></td>', page)
+
+
+def test_llms_txt_lists_every_page_with_its_headings():
+    text = (SITE / "llms.txt").read_text(encoding="utf-8")
+    lines = dict(re.findall(r"^- \[[^\]]+\]\(([^)]+)\)(?:: (.*))?$", text, re.MULTILINE))
+    assert text.startswith("# andoyer\n\n> The attitude of rigid bodies") and "\n## Use\n" in text
+    others = {"index.html", "search.html", "genindex.html", "py-modindex.html"}
+    pages = {str(page.relative_to(SITE)) for page in PAGES if page.parent.name != "pages"}
+    assert pages - others == set(lines)
+    assert lines["start.html"].split("; ")[:2] == ["An answer", "Its error"]
