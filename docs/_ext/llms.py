@@ -11,8 +11,8 @@ from sphinx.environment import BuildEnvironment
 
 def headings(env: BuildEnvironment, page: str) -> list[str]:
     """The headings of the second level of a page."""
-    (title,) = (item for item in env.tocs[page].children if isinstance(item, nodes.list_item))
-    inner = [item for part in title.children if isinstance(part, nodes.bullet_list) for item in part.children]
+    titles = [item for item in env.tocs[page].children if isinstance(item, nodes.list_item)]
+    inner = [item for title in titles for part in title.children if isinstance(part, nodes.bullet_list) for item in part.children]
     return [item.next_node(nodes.reference).astext() for item in inner if isinstance(item, nodes.list_item) and item.next_node(nodes.reference)]
 
 
