@@ -9,7 +9,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost libration-reach nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-ephemeris rivals-messages gravity docs docs-test package release-check wheel clean kernels
+.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost libration-reach nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-ephemeris rivals-messages gravity docs docs-test package release release-check wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -69,6 +69,7 @@ lint-python: $(VENV)/ready
 	$(PYTHON) tests/names.py --planted
 	$(PYTHON) benches/figures.py --check
 	$(PYTHON) tests/release.py
+	$(PYTHON) tests/release.py --planted
 
 PROGRAMS := andoyer-benches/programs,andoyer-tests/programs
 lint-rust:
@@ -204,6 +205,7 @@ rivals-products: $(RIVALS)/normal-form  ## products of polynomials against pytho
 rivals-propagation: $(RIVALS)/propagation $(RIVALS)/installed $(RIVALS)/orekit/ready  ## propagation against heyoka, SciPy, ode_solvers and, where there is Maven, Orekit
 	RUSTFLAGS='-C target-cpu=native' cargo build --release --locked --quiet --manifest-path benches/rivals/ode_solvers/Cargo.toml --target-dir $(RIVALS)/ode_solvers
 	$(RIVALS)/bin/python benches/rivals/propagation.py --data docs/data/rivals-propagation.csv --ode-solvers $(RIVALS)/ode_solvers/release/ode-solvers-rival --orekit $(RIVALS)/orekit
+	$(RIVALS)/bin/python benches/rivals/coming_from.py
 
 rivals-gradient: $(RIVALS)/propagation $(RIVALS)/installed  ## the gravity gradient against heyoka
 	$(RIVALS)/bin/python benches/rivals/gradient.py --output docs/data/rivals-gradient.csv
@@ -291,6 +293,9 @@ package: $(VENV)/installed  ## the sdist and a wheel from it without network, th
 	target/package-check/venv/bin/python -m pip install --quiet target/package-check/andoyer-*.whl
 	target/package-check/venv/bin/python -m andoyer.selftest
 	cargo package --quiet -p andoyer-double -p andoyer-kernels -p andoyer-series -p andoyer-propagate --target-dir $$(mktemp -d -p target/package-check crates.XXXXXX)
+
+release:  ## the notes of changes/ as the section of the version that Cargo.toml has, and the files that follow from it
+	$(PYTHON) tests/release.py --release
 
 release-check: package  ## versions, addresses and licences agree; public Rust names against the last tag, where there is one and cargo-semver-checks
 	$(PYTHON) tests/release.py

@@ -352,6 +352,34 @@ def nature_nutation() -> list[str]:
     return markdown(["years", "amplitude", "terms", "median difference [µas]", "terms within 100 µas", "largest [µas]"], lines)
 
 
+TESTED = {
+    "andoyer-double": ("crates/double/tests", "*.rs"),
+    "andoyer-kernels": ("crates/kernels/tests", "*.rs"),
+    "andoyer-series": ("crates/series/tests/algebra", "*.rs"),
+    "andoyer-propagate": ("tests/tests", "*.rs"),
+    "Python": ("crates/py/tests", "test_*.py"),
+}
+
+
+def claim(text: str) -> str:
+    """The first paragraph of the header of a test file: what it verifies, and against what."""
+    header = re.match(r'(?:(?://! ?.*)\n)+|"""(?:.|\n)*?"""', text)
+    lines = [line.removeprefix("//!").strip() for line in header[0].strip('"').splitlines()] if header else []
+    return " ".join("\n".join(lines).partition("\n\n")[0].split())
+
+
+def verified() -> list[str]:
+    """What the tests verify and against what, by the header of each file, with the number of its test functions."""
+    rows = []
+    for module, (folder, pattern) in TESTED.items():
+        for path in sorted((DATA.parents[1] / folder).glob(pattern)):
+            text = path.read_text(encoding="utf-8")
+            tests = len(re.findall(r"(?m)^ *#\[test\]|^def test_", text))
+            if tests:
+                rows.append([module, claim(text).replace("|", "\\|"), f"`{path.name}`", str(tests)])
+    return markdown(["module", "what is verified, and against what", "file", "tests"], rows)
+
+
 TABLES: dict[str, Callable[[], list[str]]] = {
     "averaged-bodies": averaged_bodies,
     "ensemble": ensemble,
@@ -378,6 +406,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "scenes-speed": scenes_speed,
     "sweep-accuracy": sweep_accuracy,
     "sweep-speed": sweep_speed,
+    "verified": verified,
 }
 
 
@@ -390,6 +419,8 @@ class Measured(SphinxDirective):
         name = " ".join(self.content).strip()
         if name not in TABLES:
             raise self.error(f"measured: there is no table {name!r}, only {', '.join(TABLES)}")
+        if name == "verified":
+            self.env.note_reread()
         for file in DATA.glob("*.csv"):
             self.env.note_dependency(str(file))
         container = nodes.container()
