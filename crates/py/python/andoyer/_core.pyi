@@ -989,7 +989,7 @@ class Ensemble:
     @property
     def level(self) -> str | None:
         """The level asked for: "auto", "full", "second-order", "moving" or "paper"; None where members of `from_scenes` differ."""
-    def at(self, times: ArrayLike, *, scalar_first: bool = False) -> Samples:
+    def at(self, times: ArrayLike, *, scalar_first: bool = False, progress: Callable[[int, int], object] | None = None) -> Samples:
         """Evaluates attitudes and angular velocities of all members in one pass."""
     def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:
         """Evaluates attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones."""
