@@ -246,10 +246,15 @@ const LARGE: f64 = 0.1;
 
 /// The sentence for an error above [`LARGE`].
 fn large(error: f64, truncation: f64) -> Option<String> {
-    let part = if truncation > 0.0 { format!("; the polynomials of its shapes leave out {truncation:.1e} of the torque") } else { String::new() };
-    let said = || format!("the error of the angular momentum may reach {error:.1e} of its size at the epoch, above {LARGE}{part}");
-    // A bound that is no number is large.
-    (!(error <= LARGE)).then(said)
+    let part = if truncation > 0.0 {
+        format!("; the polynomials of its shapes leave out {truncation:.1e} of the torque")
+    } else {
+        String::new()
+    };
+    let said = || {
+        format!("the error of the angular momentum may reach {error:.1e} of its size at the epoch, above {LARGE}{part}")
+    };
+    (error.is_nan() || error > LARGE).then(said)
 }
 
 /// Options of an evolution.

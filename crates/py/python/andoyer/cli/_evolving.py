@@ -49,10 +49,9 @@ def evolve(arguments: argparse.Namespace) -> int:
     stop = last if arguments.stop is None else arguments.stop
     try:
         with warnings.catch_warnings():
-            # The error of the plan is said in one line.
+            # `doubt` says it in one line.
             warnings.simplefilter("ignore", andoyer.ToleranceWarning)
             evolution = scene.evolve((start, stop), average=arguments.average)
-            large_error = evolution.plan.large_error
     except andoyer.Error as error:
         raise InputError(f"{arguments.scene}: {error}") from error
     if ending in PICTURES:
@@ -67,9 +66,20 @@ def evolve(arguments: argparse.Namespace) -> int:
             temporary.write_text(table(evolution, arguments.samples), encoding="ascii", newline="\n")
     if evolution.end.reason != "span":
         print(f"andoyer: note: the evolution ends at {evolution.end.time!r}: {evolution.end.reason}", file=sys.stderr)
-    if large_error is not None:
-        print(f"andoyer: warning: {large_error}", file=sys.stderr)
+    doubtful = doubt(evolution)
+    if doubtful is not None:
+        print(f"andoyer: warning: {doubtful}", file=sys.stderr)
     return 0
+
+
+def doubt(evolution: andoyer.Evolution) -> str | None:
+    """What is to be said of its error: that it is large, or why it is unknown."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", andoyer.ToleranceWarning)
+        try:
+            return evolution.plan.large_error
+        except andoyer.Error as error:
+            return f"the error of the evolution is unknown: {error}"
 
 
 def table(evolution: andoyer.Evolution, samples: int) -> str:
