@@ -193,7 +193,7 @@ def test_absorbed_light_on_a_closed_body_has_no_drift_over_an_orbit():
 
 
 def test_a_law_of_sublimation_is_a_sum_of_powers():
-    # The recipe of docs/evolution.md, against the mean of the law itself over places of equal times.
+    # The recipe of docs/evolution.md with the default law of JPL for comets, against the mean of the law itself over places of equal times.
     orbit = Orbit(2e-7, 0.641, inclination=0.4, semi_major_axis=3.463)
     least, most = 3.463 * 0.359, 3.463 * 1.641
     powers, r = np.arange(2, 9), np.linspace(least, most, 200)
