@@ -86,8 +86,19 @@ def measured(name, made, years, rotations):
     _, whole = timed(full.solve)
     all_rotations = (last - first) / period
     ratio = (whole / rotations) / (averaged / all_rotations)
-    figures = (f"{(last - first) / YEAR:.4g}", f"{all_rotations:.2e}", torque.degree, f"{cost:.3g}", f"{averaged:.3g}", rotations, f"{whole:.3g}", f"{ratio:.1e}")
-    return dict(zip(("scene", "years", "all_rotations", "degree", "torque_ms", "averages_ms", "rotations", "integration_ms", "ratio"), (name, *figures), strict=True))
+    figures = (
+        f"{(last - first) / YEAR:.4g}",
+        f"{all_rotations:.2e}",
+        torque.degree,
+        f"{cost:.3g}",
+        f"{averaged:.3g}",
+        rotations,
+        f"{whole:.3g}",
+        f"{ratio:.1e}",
+    )
+    return dict(
+        zip(("scene", "years", "all_rotations", "degree", "torque_ms", "averages_ms", "rotations", "integration_ms", "ratio"), (name, *figures), strict=True)
+    )
 
 
 def main():

@@ -2,7 +2,7 @@
 YORP cycles of an asteroid
 ==========================
 
-Sunlight that an irregular asteroid scatters and radiates spins it up and down and turns its axis. When the rotation is slow it begins to tumble; the tumbling carries it through a cycle, until the motion passes the separatrix between its modes.
+Sunlight that an irregular asteroid scatters and radiates turns its axis and spins it down and up. Where the rotation is slow the asteroid begins to tumble, and a cycle later it passes the separatrix between its modes.
 """
 
 import matplotlib.pyplot as plt
@@ -61,12 +61,10 @@ rates = 2 * np.pi / 36000 * body.moments[2] * np.array([0, np.sin(wobble), np.co
 scene = andoyer.Scene(body, [np.sin(tilt / 2), 0, 0, np.cos(tilt / 2)], rates, torques=[light])
 evolution = scene.evolve((0, 3e7 * year))
 print(f"{evolution.end.reason} after {evolution.end.time / 1e6 / year:.1f} million years")
-plan = evolution.plan
-print(f"error of the angular momentum up to {plan.error_bound:.1f} of its size at the start, {len(plan.resonances)} resonances passed")
 
 # %%
-# The spin period goes up and down with the obliquity. Tumbling, ξ over its value on the separatrix, grows where the rotation is slow and may stay through a fast phase. The error bound is that of the whole way: the picture shows what
-# this torque does, and its later dates are those of one possible motion.
+# The torque brakes the rotation, while its axis turns towards the normal of the orbit. Where the rotation is slowest, tumbling grows at once: ξ over its value on the separatrix goes from near 0 to most of the way. Then the body spins up again
+# and keeps tumbling, until the next slow phase brings it to the separatrix. The polynomials leave out a part of the torque in each of these years, so the dates are those of one possible motion.
 
 times = np.linspace(0, evolution.end.time, 3000)
 states = evolution.at(times)

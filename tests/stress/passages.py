@@ -137,7 +137,9 @@ def main() -> None:
     for capture, word in ((False, "excluded"), (True, "possible")):
         here = [one for one in found if one.capture is capture]
         captured = [one.captured for one in here]
-        print(f"{len(here)} passages where capture is {word}: {sum(captured)} of {len(here) * arguments.members} members captured, in {np.count_nonzero(captured)} passages")
+        print(
+            f"{len(here)} passages where capture is {word}: {sum(captured)} of {len(here) * arguments.members} members captured, in {np.count_nonzero(captured)} passages"
+        )
         if here:
             ratios = np.array([one.measured / one.jump for one in here])
             low, median, high = np.quantile(ratios, [0.05, 0.5, 0.95])
