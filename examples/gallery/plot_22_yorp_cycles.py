@@ -64,7 +64,7 @@ print(f"{evolution.end.reason} after {evolution.end.time / 1e6 / year:.1f} milli
 
 # %%
 # The torque brakes the rotation, while its axis turns towards the normal of the orbit. Where the rotation is slowest, tumbling grows at once: ξ over its value on the separatrix goes from near 0 to most of the way. Then the body spins up again
-# and keeps tumbling, until the next slow phase brings it to the separatrix. The polynomials leave out a part of the torque in each of these years, so the dates are those of one possible motion.
+# and keeps tumbling, until the next slow phase brings it to the separatrix. The polynomials leave out a part of the torque in each of these years, so the dates are those of one possible motion. Which mode follows depends on phases that nobody knows: the evolution ends.
 
 times = np.linspace(0, evolution.end.time, 3000)
 states = evolution.at(times)
@@ -75,11 +75,4 @@ panels[1].plot(times / 1e6 / year, np.degrees(states.obliquity))
 panels[1].set_ylabel("obliquity [°]")
 panels[2].plot(times / 1e6 / year, states.excess / (body.moments[2] / body.moments[1] - 1))
 panels[2].set(ylabel="ξ / ξ_sep", ylim=(0, 1.05), xlabel="time [million years]")
-
-# %%
-# On the separatrix the mode that follows depends on phases that nobody knows. `through` integrates members with evenly spread phases across it, and each outcome goes on in averages.
-
-for probability, later in evolution.through(16):
-    state = later.at(later.reached[0])
-    print(f"{probability:.0%}: {state.mode} mode, {later.end.reason} after {later.end.time / 1e6 / year:.1f} million years")
 plt.show()
