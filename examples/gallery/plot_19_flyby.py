@@ -91,12 +91,15 @@ print(f"P_φ of the long axis, after over before: {np.quantile(periods[1] / peri
 print(f"turn of the angular momentum [°]: {np.quantile(turns, [0.05, 0.5, 0.95]).round(1)}; ten or more: {(turns >= 10).mean():.0%}")
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
-left.hist([state.periods["long-axis"].precession[known] for state in (before, after)], bins=40, histtype="stepfilled", alpha=0.7, label=["before", "after"], color=["#D55E00", "#0072B2"])  # fmt: skip
+left.hist(periods[1], bins=40, color="#0072B2", label="after")
+left.axvspan(*np.quantile(periods[0], [0.05, 0.95]), color="#D55E00", label="before, 5 to 95 %")
 left.set(xlabel="period of the long axis' precession [h]", ylabel="clones")
 left.legend(frameon=False)
-colours = np.where(after.mode[known] == "short-axis", "#0072B2", "#D55E00")
-right.scatter(turns, after.energy_ratio[known], s=5, color=colours)
-right.set(xlabel="turn of the angular momentum [°]", ylabel="E/E0 after the passage (orange: the long-axis mode)")
+for mode, colour in [("short-axis", "#0072B2"), ("long-axis", "#D55E00")]:
+    here = after.mode[known] == mode
+    right.scatter(turns[here], after.energy_ratio[known][here], s=5, color=colour, label=f"{mode} mode")
+right.set(xlabel="turn of the angular momentum [°]", ylabel="E/E0 after the passage")
+right.legend(frameon=False)
 plt.show()
 
 # %%
