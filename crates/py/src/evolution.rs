@@ -235,26 +235,11 @@ impl Evolution {
     /// ------
     /// RepresentationError, InputError
     ///     A time outside, or that is not finite.
-    fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<EvolvedStates> {
-        let (values, leading) = self.times(times)?;
-        let states = detached(py, exception, || calling(|| self.evolution.at(&values)))?;
-        Ok(EvolvedStates { states, leading })
-    }
-
-    /// What the averages leave out at times: root mean square over the phases of the short-period parts.
-    ///
-    /// Parameters
-    /// ----------
-    /// times : array_like, shape () or (n,)
-    ///
-    /// Returns
-    /// -------
-    /// ndarray, shape (2,) or (n, 2)
-    ///     Of the angular momentum, over its size, and of the excess of energy.
-    fn band<'py>(&self, py: Python<'py>, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let (values, leading) = self.times(times)?;
-        let bands = detached(py, exception, || calling(|| self.evolution.band(&values)))?;
-        bands.as_flattened().to_vec().into_pyarray(py).reshape([&leading[..], &[2]].concat())
+    fn at(slf: &Bound<'_, Self>, times: &Bound<'_, PyAny>) -> PyResult<EvolvedStates> {
+        let own = slf.get();
+        let (values, leading) = own.times(times)?;
+        let states = detached(slf.py(), exception, || calling(|| own.evolution.at(&values)))?;
+        Ok(EvolvedStates { evolution: slf.clone().unbind(), states, leading })
     }
 
     /// A scene at a time whose averaged motion this is: torques, orbits and options are those of `scene`, without a span. Of the phases nothing is known, so they are given; what the averages leave out at these phases is added to them.
@@ -475,6 +460,7 @@ impl EvolutionPlan {
 /// Averaged states at times, from `Evolution.at`: arrays whose first axis is that of the times.
 #[pyclass(frozen, module = "andoyer")]
 pub(crate) struct EvolvedStates {
+    evolution: Py<Evolution>,
     states: Vec<Evolved>,
     leading: Vec<usize>,
 }
@@ -521,6 +507,15 @@ impl EvolvedStates {
     #[getter]
     fn excess<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.numbers(py, |state| state.excess)
+    }
+
+    /// What the averages leave out, shape (n, 2): root mean square over the phases of the short-period parts of the angular momentum, over its size, and of the excess of energy. It is computed when it is asked for.
+    #[getter]
+    fn band<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let times: Vec<f64> = self.states.iter().map(|state| state.time).collect();
+        let evolution = &self.evolution.get().evolution;
+        let bands = detached(py, exception, || calling(|| evolution.band(&times)))?;
+        bands.as_flattened().to_vec().into_pyarray(py).reshape([&self.leading[..], &[2]].concat())
     }
 
     /// 2π M/2E, the spin period, of a tumbler an effective one, shape (n,).

@@ -72,7 +72,7 @@ def test_the_band_is_what_the_averages_leave_out():
         evolution = scene.evolve(tolerance=1e-10)
         difference = scene.solve().angular_momentum(times) - evolution.at(times).momentum
         left = np.sqrt((difference**2).sum(axis=1).mean()) / np.linalg.norm([0.3, -0.4, 0.85])
-        assert evolution.band([0.0])[0, 0] == pytest.approx(left, rel=0.2)
+        assert evolution.at([0.0]).band[0, 0] == pytest.approx(left, rel=0.2)
         # The epoch is corrected by phase: without it the mean difference would be of the order of the band.
         assert np.abs(difference.mean(axis=0)).max() < 0.1 * left
 
@@ -196,3 +196,28 @@ def test_refusals():
         Scene(body, [0, 0, 0, 1], [0, 0, 1], torques=[fast]).drift()
     with pytest.raises(InputError, match=r"Scene\.evolve"):
         Scene(body, [0, 0, 0, 1], [0, 0, 1], method="averaged")
+
+
+@pytest.mark.parametrize(("moment", "rate"), [(1e15, 1.0), (1e-12, 1.0), (1e15, 1e-4), (1.0, 1e6)])
+def test_units_change_nothing(moment, rate):
+    def evolved(moment, rate):
+        light = Torque.panels(
+            [[1, 0, 0], [0, 0.8, 0.6]],
+            [1.0, 2.0],
+            [[0.1, 0.5, 0.3], [0.4, -0.2, 0.3]],
+            pressure=1e-4 * moment * rate**2,
+            source=SOURCE,
+            degree=4,
+            two_sided=True,
+        )
+        scene = Scene(Body(moment * np.array(MOMENTS)), [0, 0, 0, 1], rate * np.array([0.1, 0.2, 1.0]), torques=[light])
+        evolution = scene.evolve((0, 1000 / rate))
+        at = evolution.at(np.array([0.0, 300, 900]) / rate)
+        plan = evolution.plan
+        return at.momentum / moment / rate, at.excess, at.band, np.array(plan.second_order) / rate, plan.error_bound
+
+    momentum, excess, band, second_order, bound = evolved(1.0, 1.0)
+    others = evolved(moment, rate)
+    assert band[0].min() > 1e-5
+    for found, expected, tolerance in zip(others, (momentum, excess, band, second_order, bound), (1e-9, 1e-9, 1e-6, 1e-2, 1e-2), strict=True):
+        assert np.allclose(found, expected, rtol=tolerance, atol=0 if np.ndim(expected) else 1e-9)

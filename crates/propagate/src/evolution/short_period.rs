@@ -9,6 +9,8 @@ use crate::error::Error;
 
 /// A term next to a resonance is left out: 2|F ∂Ω/∂ξ| ≥ LIMIT Ω².
 const LIMIT: f64 = 0.5;
+/// A divisor below this part of the faster rate is the rounding error of 0.
+const ROUNDING: f64 = 1e-14;
 /// Below this ratio of √ξ to the change of ζ the excess is corrected by ζ: (12) divides by √ξ there.
 const SMALL: f64 = 10.0;
 
@@ -35,6 +37,7 @@ impl ShortPeriod {
         let torus = TorusTerms::new(equations, time, (momentum, excess))?;
         let wobble = Self::wobble(equations, time, (&torus.frame, size))?;
         let (rates, slopes) = torus.polhode.rates_and_slopes(size);
+        let fastest = rates[0].abs().max(rates[1].abs());
         let mut terms = Vec::new();
         for m in 0..ABOUT {
             for h in 0..ALONG {
@@ -43,7 +46,7 @@ impl ShortPeriod {
                     .map(|[wobble, turn]| f64::from(multiples[0]) * wobble + f64::from(multiples[1]) * turn);
                 let term = torus.of(multiples);
                 let resonant = 2.0 * (term[3] * slope).norm() >= LIMIT * divisor * divisor;
-                if multiples != [0, 0] && divisor.abs() > 1e-14 * size && !resonant {
+                if multiples != [0, 0] && divisor.abs() > ROUNDING * fastest && !resonant {
                     // W = F/(iΩ)
                     terms.push((multiples, term.map(|c| c / Complex::new(0.0, divisor))));
                 }

@@ -752,8 +752,6 @@ class Evolution:
 
     def at(self, times: Any) -> EvolvedStates:
         """The averaged state at times of the span, up to the end of the evolution."""
-    def band(self, times: Any) -> _Array:
-        """What the averages leave out at times: root mean square over the phases of the short-period parts."""
     def motion_at(self, time: float | Any, phases: ArrayLike) -> Scene:
         """A scene at a time whose averaged motion this is: torques, orbits and options are those of `scene`, without a span. Of the phases nothing is known, so they are given; what the averages leave out at these phases is added to them."""
     def through(self, members: int = 64, seed: int = 0) -> list[tuple[float, Evolution]]:
@@ -835,6 +833,9 @@ class EvolvedStates:
     @property
     def excess(self) -> _Array:
         """ξ, the excess of energy, shape (n,): 2CE/M² − 1 in the short-axis mode, 1 − 2AE/M² in the long-axis mode."""
+    @property
+    def band(self) -> _Array:
+        """What the averages leave out, shape (n, 2): root mean square over the phases of the short-period parts of the angular momentum, over its size, and of the excess of energy. It is computed when it is asked for."""
     @property
     def spin_period(self) -> _Array:
         """2π M/2E, the spin period, of a tumbler an effective one, shape (n,)."""
