@@ -235,7 +235,7 @@ pub struct EvolutionPlan {
 }
 
 impl EvolutionPlan {
-    /// A sentence if the error bound is above [`LARGE`], otherwise `None`.
+    /// A sentence if the error bound is above a tenth of the angular momentum, otherwise `None`.
     pub fn large_error(&self) -> Option<String> {
         large(self.error_bound, self.truncation)
     }
