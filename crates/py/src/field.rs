@@ -116,9 +116,12 @@ impl Field {
         // What a table of places calls positions.
         let table = table.map_err(|problem| match problem {
             Error::Length { found, expected, .. } => Error::Length { argument: "vectors", found, expected },
-            Error::Table { argument: "positions", index, value, .. } => {
-                Error::Table { argument: "vectors", index, value, bound: "finite and not 0" }
-            }
+            Error::Table { argument: "positions", index, value, .. } => Error::Number {
+                argument: "vectors",
+                index: Some(index),
+                value,
+                bound: "finite, in a vector that is not 0",
+            },
             other => other,
         });
         Ok(Self(FieldPath::Table(Arc::new(table.map_err(error::propagation)?))))

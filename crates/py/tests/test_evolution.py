@@ -131,6 +131,7 @@ def test_obliquity_and_period_have_the_rates_of_drift():
     assert ends.obliquity.shape == (2,)
 
 
+@pytest.mark.filterwarnings("ignore:the error of the angular momentum may reach")  # of the polynomials, over ten years
 def test_years_of_a_satellite():
     # The invented satellite of the theory's measurements: a Python program of its own (DOP853, degree 8, 1e-8) reaches the separatrix after 7.684 years.
     size, walls = np.array([2.3, 2.0, 1.9]), np.vstack([np.eye(3), -np.eye(3)])

@@ -174,7 +174,7 @@ def test_bad_torques_are_refused():
         andoyer.Torque.eddy(np.inf, earth(orbit()))
     with pytest.raises(TypeError, match="three"):
         andoyer.Torque.dipole(["b1", "b2"], earth(orbit()))
-    with pytest.raises(andoyer.InputError, match="origin"):
+    with pytest.raises(andoyer.InputError, match=r"^vectors\[0\] = 0: it must be finite, in a vector that is not 0"):
         andoyer.Field.table(np.arange(9.0), np.zeros((9, 3)))
 
 
