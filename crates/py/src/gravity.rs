@@ -67,7 +67,8 @@ impl Gravity {
     /// Parameters
     /// ----------
     /// name : str
-    ///     "moon": the coefficients of JPL's ephemeris DE421 about the principal axes, with a radius of 1738 km. C20 and the moments give the inertia factor.
+    ///     "moon": the coefficients of JPL's ephemeris DE421 about the principal axes, with a radius of 1738 km. C20 and the moments give the inertia factor. "eros": the solution NEAR15A (Miller et al. 2002) about
+    ///     the axes of the prime meridian, with a radius of 16 km; these are not principal, so the body needs a tensor.
     ///
     /// Raises
     /// ------

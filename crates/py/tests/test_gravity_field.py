@@ -1,6 +1,7 @@
 """Torques of degree 3 and 4 against the harmonics of bodies of point masses, integrated by SciPy."""
 
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -177,3 +178,20 @@ def test_a_field_of_zeros_is_none():
     alone = andoyer.Scene(andoyer.Body([0.4, 0.41, 0.42]), [0, 0, 0, 1], [0.0, 0.01, 1.0], orbit=andoyer.Orbit(2e-3, 0.1), tolerance=1e-6, span=(0, 1e3))
     assert scene.solve().plan.method == alone.solve().plan.method == "closed"
     assert (scene.solve().attitude(500.0) == alone.solve().attitude(500.0)).all()
+
+
+def test_the_field_of_eros_is_that_of_its_published_tensor():
+    field = andoyer.Gravity.named("Eros")
+    c20, c22, s22, c21, s21 = (field.coefficients[name] for name in ("C20", "C22", "S22", "C21", "S21"))
+    assert field.radius == 16.0 and c20 / np.sqrt(5) == pytest.approx(-0.0524618393097, rel=1e-12)
+    # I/M in km², with I33 of the shape: C20 = (I11 + I22 − 2 I33)/(2 R²), C22 = (I22 − I11)/(4 R²), S22 = −I12/(2 R²).
+    square, third = field.radius**2, 74.49
+    mean, half = third + c20 * square, 2 * c22 * square
+    tensor = np.array([[mean - half, -2 * s22 * square, -c21 * square], [-2 * s22 * square, mean + half, -s21 * square], [-c21 * square, -s21 * square, third]])
+    assert np.allclose([tensor[0, 0], tensor[1, 1], tensor[0, 1]], [17.09, 71.79, 9.3], rtol=0, atol=0.15)  # J. K. Miller's tensor
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        body = andoyer.Body.from_inertia(tensor, gravity=field)
+    assert body.moments[0] / body.moments[2] == pytest.approx(0.21008, abs=1e-3)
+    with pytest.raises(andoyer.InputError, match='"moon" or "eros"'):
+        andoyer.Gravity.named("ceres")

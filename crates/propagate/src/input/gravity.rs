@@ -54,6 +54,22 @@ const OF_THE_MOON: [(&str, f64); 18] = [
     ("S44", 8.314_75e-8),
 ];
 
+/// Degree, order and the normalized C and S of Eros, solution NEAR15A (J. K. Miller et al., Icarus 155 (2002) 3; the file of the Planetary Data System), about the axes of its prime meridian.
+const OF_EROS: [(u32, u32, f64, f64); 12] = [
+    (2, 0, -5.246_183_930_97e-2, 0.0),
+    (2, 1, -1.637_912_961_16e-6, -1.400_038_061_64e-7),
+    (2, 2, 8.239_938_798_58e-2, -2.810_955_590_16e-2),
+    (3, 0, -1.414_465_370_45e-3, 0.0),
+    (3, 1, 4.060_164_755_96e-3, 3.368_468_993_23e-3),
+    (3, 2, 1.775_914_094_89e-3, -7.038_031_814_78e-4),
+    (3, 3, -1.041_639_994_96e-2, -1.207_144_048_20e-2),
+    (4, 0, 1.293_148_199_62e-2, 0.0),
+    (4, 1, -1.003_509_335_84e-4, 1.369_399_290_63e-4),
+    (4, 2, -1.746_880_183_25e-2, 4.629_099_530_71e-3),
+    (4, 3, -3.002_011_920_46e-4, -1.192_071_641_56e-4),
+    (4, 4, 1.745_516_689_02e-2, -9.105_292_769_48e-3),
+];
+
 /// Coefficients of degree 2 that differ from those of the inertia tensor by more than this part of the largest are named.
 const DIFFERENT: f64 = 1e-3;
 
@@ -87,6 +103,13 @@ impl PartialEq for Gravity {
         (&self.coefficients, self.radius, self.inertia_factor, &self.turn)
             == (&other.coefficients, other.radius, other.inertia_factor, &other.turn)
     }
+}
+
+/// What turns a fully normalized coefficient into an unnormalized one: √((2 − δ_0m)(2n + 1)(n − m)!/(n + m)!).
+fn unnormalized(degree: u32, order: u32) -> f64 {
+    let factorials: f64 = (degree - order + 1..=degree + order).map(f64::from).product();
+    let twice = if order == 0 { 1.0 } else { 2.0 };
+    (twice * f64::from(2 * degree + 1) / factorials).sqrt()
 }
 
 impl Gravity {
@@ -131,15 +154,25 @@ impl Gravity {
         Err(torque_refused("inertia_factor", factor, "positive and finite"))
     }
 
-    /// The field of a body by its name: "moon", that of JPL's DE421 about its principal axes, as in the constants of that ephemeris (J_n = −C_n0); radius in km.
+    /// The field of a body by its name; radius in km. "moon": that of JPL's DE421 about its principal axes, as in the constants of that ephemeris (J_n = −C_n0). "eros": NEAR15A about the
+    /// axes of the prime meridian, which are not principal: the body needs a tensor.
     ///
     /// # Errors
     /// - [`Error::Torque`] for another name.
     pub fn named(name: &str) -> Result<Self, Error> {
-        if !name.eq_ignore_ascii_case("moon") {
-            return Err(torque_refused("name", name, "\"moon\""));
+        match &name.to_ascii_lowercase()[..] {
+            "moon" => Self::new(&OF_THE_MOON, 1738.0),
+            "eros" => {
+                let both = |(degree, order, c, s): (u32, u32, f64, f64)| {
+                    let named =
+                        |kind, value: f64| (format!("{kind}{degree}{order}"), value * unnormalized(degree, order));
+                    std::iter::once(named("C", c)).chain((order > 0).then(|| named("S", s)))
+                };
+                let all: Vec<_> = OF_EROS.into_iter().flat_map(both).collect();
+                Self::new(&all.iter().map(|(name, value)| (&name[..], *value)).collect::<Vec<_>>(), 16.0)
+            }
+            _ => Err(torque_refused("name", name, "\"moon\" or \"eros\"")),
         }
-        Self::new(&OF_THE_MOON, 1738.0)
     }
 
     /// The coefficients of degree 4 of a homogeneous ellipsoid with semi-axes along body axes 1, 2, 3, with those of degree 2; the odd ones are 0.
