@@ -1,4 +1,4 @@
-//! From a scene to its motion (theory §5 to §10): `choose` asks which method serves, `free`, `averaged` and `integrated` make the motion.
+//! From a scene to its motion (theory §5 to §10): `choose` asks which method serves, `free`, `averaged`, `libration` and `integrated` make the motion.
 
 use std::sync::atomic::AtomicBool;
 

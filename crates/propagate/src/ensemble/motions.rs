@@ -83,7 +83,7 @@ impl Ensemble {
         self.kept.get(member).unwrap_or_else(|| Arc::new(solve()))
     }
 
-    /// The part of its span that a member is asked for: times that are refused are NaN alone, if members may be.
+    /// The part of its span over which a member is solved. With [`OnError::Nan`] it ends where nothing more is known of the attitude, and only the rows of later times are NaN.
     fn served(&self) -> Served {
         match self.on_error {
             OnError::Raise => Served::WholeSpan,

@@ -1,4 +1,4 @@
-//! Evaluation of the members of an ensemble, each by one thread.
+//! Evaluation of the members of an ensemble: the members are shared among the threads, and the times of one member where there are few.
 //!
 //! A member's motion lives while its rows are written; those under a torque are kept ([`super::kept`]).
 
@@ -30,7 +30,7 @@ impl Ensemble {
     /// The plan of every member.
     ///
     /// # Errors
-    /// - As [`Ensemble::motion`], of the first that has one.
+    /// - The error of the first member that has no motion, as of [`Ensemble::motion`].
     pub fn plans(&self) -> Result<Vec<Plan>, Error> {
         self.run().plans()?.into_iter().collect()
     }

@@ -66,8 +66,8 @@ impl Evolution {
         self.at(times)?.iter().map(one).collect()
     }
 
-    /// How much earlier or later the end may be. With members it is the standard deviation of the ends of those that end for the same reason. Without, at the separatrix, it is the time in which
-    /// the averages pass what they leave out of ξ; `None` for other reasons.
+    /// How much earlier or later the end may be \[time\]. With two or more members that end for the same reason: the standard deviation of their ends. Otherwise, at the separatrix: the
+    /// short-period part of ξ over the mean rate of ξ. `None` for other ends.
     ///
     /// # Errors
     /// As [`Evolution::at`].

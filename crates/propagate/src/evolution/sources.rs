@@ -69,7 +69,7 @@ impl MovingSource {
         }
     }
 
-    /// The rate of a source that is followed, a sixth of whose period is the longest step: of a table four intervals are a sixth. 0 for others.
+    /// The rate \[rad/time\] that limits a step to a sixth of its period. For a table a sixth of the period is four intervals. 0 for a source that is averaged.
     pub(super) fn rate_to_follow(&self) -> f64 {
         match &self.path {
             SourcePath::Tabulated(table) => {

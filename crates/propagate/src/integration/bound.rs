@@ -50,8 +50,8 @@ pub(super) const INPUT: f64 = 1.2e-16;
 /// Relative rounding errors of the ratios of the moments and of each torque, the same in every step.
 const CONSTANTS: [f64; 2] = [2.4e-16, 4.8e-16];
 
-/// Displacements of the rates, with the sign of each. Where nearby states separate in a plane of two axes, beside the middle axis, one line in the plane does
-/// not grow: for no plane do all displacements lie near the same line. With the first two alone the distance of one scene in some hundred was too small by a
+/// Displacements of the rates, with the sign of each. Where nearby states separate in a plane of two axes, beside the middle axis, one direction in it does
+/// not grow. In no plane do all four displacements lie near one line. With the first two alone the distance of one scene in some hundred was too small by a
 /// factor of ten, because the displacements of the steps happened to cancel the growing part of both.
 const WEIGHTS: [Row; PATTERNS] =
     [[0.8, 1.0, 0.9, 0.0], [1.0, -0.4, 0.2, 0.0], [-0.3, 0.9, -1.0, 0.0], [0.5, 0.3, -0.8, 0.0]];
@@ -63,8 +63,7 @@ const CORNERS: [Row; PATTERNS] =
     [[PART, PART, PART, 0.0], [PART, -PART, -PART, 0.0], [-PART, PART, -PART, 0.0], [-PART, -PART, PART, 0.0]];
 const PART: f64 = 0.5 * std::f64::consts::FRAC_1_SQRT_2;
 const TURNED_CORNERS: [Row; PATTERNS] = [CORNERS[1], CORNERS[2], CORNERS[3], CORNERS[0]];
-/// Random displacements of a step by its rounding errors, (2 LONGER)^(−1/2): two states differ by √2 times as much, and fewer steps that are as much longer add up to
-/// √LONGER times as much.
+/// Random displacements of a step by its rounding errors: over √2, because two states are compared, and over √LONGER, because each step is LONGER times as long.
 const NOISE: f64 = 0.577_350_269_189_625_8;
 /// Where the signs of the displacements of each step begin.
 const SEED: u64 = 0x9e37_79b9_7f4a_7c15;

@@ -24,7 +24,7 @@ use crate::simd::instruction_set::{dispatch, dispatch_few};
 
 /// Relative truncation error of a step. The sum of such errors over all steps is below the rounding error.
 const FINEST: f64 = 1e-19;
-/// The largest one that is used.
+/// The largest relative truncation error that a step is given.
 const COARSEST: f64 = 1e-6;
 /// Relative error of an enlarged displacement that its steps may leave at the end, before its division by the square of the phase.
 const ENLARGED_ERROR: f64 = 1e-3;
@@ -277,7 +277,7 @@ impl Problem {
         longest * x.hypot(y).hypot(z).max(self.equations.scale)
     }
 
-    /// About how many steps there will be: by the fastest of the rates that last, and by the passages of the pericentres, where a step is e^−2 of the radius
+    /// An estimate of the number of steps: two a radian of the fastest of the rates that last, and eight a passage of a pericentre, where a step is e^−2 of the radius
     /// of convergence or more.
     pub(super) fn most_steps(&self) -> f64 {
         let longest = self.ends[0].0.abs().max(self.ends[1].0.abs());

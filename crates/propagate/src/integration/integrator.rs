@@ -26,8 +26,8 @@ const TYPICAL: usize = MOST_STEPS / 64;
 const LONGEST_STEP: f64 = 4.0;
 /// Steps during which a body must rotate too fast for the rest of the span before it is refused: within a passage of a pericentre it may do so for some hundreds.
 const SUSTAINED: usize = 1 << 14;
-/// A step is at most this part of the radius of convergence of each torque. The coefficients of the motion show a torque only where it exceeds the rounding
-/// errors: the steps towards a pericentre would pass over it where it does not. Where they show it, they give shorter steps.
+/// A step is at most this part of the radius of convergence of each torque. Far from a pericentre the torque is below the rounding errors of the coefficients of
+/// the motion: steps by these alone would pass over the pericentre.
 const NEAREST: f64 = 0.5;
 /// The start of a step: 72 bytes.
 #[derive(Clone, Copy, Debug)]
@@ -344,7 +344,7 @@ pub(super) fn next_end<const W: usize>(
     nearest.filter(|knot| knot.0.abs() < target.0.abs()).unwrap_or(target)
 }
 
-/// Whether the steps so far leave the whole within the bound. Some of the steps are due to the rotation, and others to the passage of each body. The number of
+/// Refuses an integration whose extrapolated number of steps exceeds [`MOST_STEPS`]. Some of the steps are due to the rotation, and others to the passage of each body. The number of
 /// each kind grows at least by the least of the factors by which they grow.
 pub(super) fn affordable(
     equations: &Equations<4>,
@@ -363,7 +363,7 @@ pub(super) fn affordable(
     Ok(())
 }
 
-/// Whether a passage has left the body with a rotation that needs too many steps for the rest of the span. `since` is the time from which on it has been so, with the
+/// Refuses an integration where a passage has left the body with a rotation that needs too many steps for the rest of the span. `since` is the time from which on it has been so, with the
 /// number of steps then.
 fn spun_up(
     runner: &Runner<4>,

@@ -2,8 +2,8 @@
 //!
 //! A step expands the motion about its start ([`expansion`], [`products`]) and is as long as the last two coefficients allow (Jorba and Zou, Exp. Math. 14 (2005) 99, eqs.
 //! 3-7 and 3-8). The steps are kept ([`integrator`]), and a time is evaluated by the series of the step that contains it ([`dense`]). Integrations from
-//! displaced states measure the error ([`bound`]). At equal error the integration with its error bound takes 0.65 to 0.9 of the time of heyoka, which has no
-//! bound, without its compilation; at equal tolerance 1.2 to 1.7 times as long (`make rivals-integration`, benches/README.md).
+//! displaced states measure the error ([`bound`]). docs/speed.md has its time beside that of heyoka, which
+//! has no bound (`make rivals-integration`).
 //!
 //! Members of an ensemble are integrated together, each in a lane of a vector ([`several`], [`lane_tasks`], [`lanes`], [`lane_series`]).
 

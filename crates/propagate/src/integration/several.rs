@@ -1,8 +1,8 @@
 //! Integrations of several motions at once, in lanes.
 //!
 //! A motion enters a lane when another has left it, so that no lane is idle before the last ones. Each lane has steps of its own. Displaced states of a motion have four
-//! lanes and the same steps. What the lanes do not serve is integrated alone: tables, hyperbolas, orbits that precess, several bodies, other torques, and all motions on
-//! a machine without fused multiply-add.
+//! lanes and the same steps. What the lanes do not serve is integrated alone: tables, hyperbolas, orbits that precess, several bodies or none, other torques, more than 2^15 steps, and all motions
+//! on a machine without fused multiply-add.
 
 use std::sync::atomic::AtomicBool;
 

@@ -1,4 +1,4 @@
-//! Scalar numerics: phases in double-double, scaling by powers of two, the theta quantities of a polhode.
+//! Scalar numerics: phases in double-double, scaling by powers of two, the theta quantities of a polhode; and the cache of results (`kept`).
 
 pub(crate) mod kept;
 pub(crate) mod phase;
