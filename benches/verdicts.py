@@ -391,6 +391,7 @@ def row(seed, starts):
     return line | {
         "best mode": state[0], "P_φ [h]": f"{state[1][0]:.6g}", "P_ψ [h]": f"{state[1][1]:.6g}", "pole apart [°]": f"{apart:.2f}", "pole σ [°]": f"{deviation:.3g}",
         **{f"right {part}": int(right[part]) for part in PARTS}, **{f"verdict {part}": getattr(verdict, part) for part in PARTS}, "secure is right": int(right["secure"]),
+        "simple": int(verdict.simple), "P [h]": f"{found.simple_rotation.period:.6g}",
         "reduced χ²": f"{found.reduced_chi_square:.4g}", "χ²": f"{least:.2f}", "χ² from truth": f"{from_truth(data):.2f}", "minima": len(found.optima),
         "truth is minimum": places[0] + 1 if places else "", "truth Δχ²": f"{found.optima[places[0]].chi_square - least:.2f}" if places else "",
         **{f"margin {part}": f"{margin:.4g}" for part, margin in zip(PARTS, verdict.margins)}, "reached": verdict.reached,
@@ -426,7 +427,7 @@ def tables(lines):
 COLUMNS = [
     "seed", "class", "kind", "shape", "law", "nights", "points", "span [h]", "noise [mag]", "signal to noise", "starts", "true mode", "true P_φ [h]", "true P_ψ [h]",
     "true longitude [°]", "true latitude [°]", "best mode", "P_φ [h]", "P_ψ [h]", "pole apart [°]", "pole σ [°]", *(f"right {part}" for part in PARTS), *(f"verdict {part}" for part in PARTS),
-    "secure is right", "reduced χ²", "χ²", "χ² from truth", "minima", "truth is minimum", "truth Δχ²", *(f"margin {part}" for part in PARTS), "reached", "chance", "processor [s]", "error",
+    "secure is right", "simple", "P [h]", "reduced χ²", "χ²", "χ² from truth", "minima", "truth is minimum", "truth Δχ²", *(f"margin {part}" for part in PARTS), "reached", "chance", "processor [s]", "error",
 ]  # fmt: skip
 
 
