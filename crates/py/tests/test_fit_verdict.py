@@ -65,7 +65,7 @@ def test_the_period_of_a_rotator_of_another_shape_is_secure():
 
 def test_another_frequency_is_a_wobble():
     known = evidence([0, 0, 1.1], 0.003, lambda times: 0.03 * np.cos(0.37 * times), tumbling=0.5)
-    assert not _verdict.judge(known).simple and not _verdict.rotation(known).established
+    assert _verdict.judge(known).periods != "secure" and not _verdict.rotation(known).established
 
 
 def test_noise_that_hides_a_wobble_leaves_the_period_ambiguous():
