@@ -9,7 +9,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost libration-reach nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-ephemeris rivals-messages gravity docs docs-test package release release-check wheel clean kernels
+.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves verdicts libration-cost libration-reach nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-ephemeris rivals-messages gravity docs docs-test package release release-check wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -96,6 +96,10 @@ scenes: $(VENV)/installed  ## the example scenes and an ensemble: docs/data/scen
 
 light-curves: $(VENV)/installed  ## light curves with known answers: docs/data/light-curves.csv; some minutes
 	$(BIN)/python benches/light_curves.py
+
+verdicts: $(VENV)/installed  ## how often verdicts on simulated light curves are right: docs/data/verdicts.csv; half an hour
+	rm -f docs/data/verdicts.csv
+	$(BIN)/python benches/verdicts.py --seed 300 --count 80 --starts 1000 --out docs/data/verdicts.csv
 
 libration-reach: $(VENV)/installed  ## the share of random locked scenes that are served: docs/data/libration-reach.csv and its picture; some minutes
 	cargo build --release --quiet --package andoyer-tests --features programs --bin libration

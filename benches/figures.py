@@ -33,10 +33,11 @@ TARGETS = {
     "gravity": [f"gravity-{name}.csv" for name in ("cases", "levels", "bounds", "climb", "table", "spans")] + ["averaged-bodies.csv"],
     "stress": ["stress.csv"],
     "libration-reach": ["libration-reach.csv"],
+    "verdicts": ["verdicts.csv"],
     "nature": ["nature-earth.csv", "nature-moon.csv", "nature-moon-terms.csv", "nature-moon-rivals.csv"],
 }
-# Counts of scenes, which the clock changes only where an order takes seconds, angles, and ratios to engines that are no engine of the other files: they may be of another commit than the others.
-COUNTS = {"libration-reach", "nature", "rivals-ephemeris"}
+# Counts of scenes, which the clock changes only where an order takes seconds, counts of verdicts, angles, and ratios to engines that are no engine of the other files: they may be of another commit than the others.
+COUNTS = {"libration-reach", "nature", "rivals-ephemeris", "verdicts"}
 SOURCES = ("crates/*/src/**/*.rs", "crates/py/python/**/*.py")
 PAGES = ("README.md", "benches/README.md", "crates/py/README.md", "docs/")
 """What the targets write."""

@@ -8,7 +8,10 @@ that change over weeks; 3 to 10 nights of 4 to 8 h with gaps and an unknown zero
 rotators, and data that do not determine the motion: few points, weak tumblers, near-spheres. The fit has the semi-axes of the ellipsoid of equal moments with an error of 10 %.
 
 Periods are right if both phases agree within half a turn over the data, the pole if it is within 10° or three standard deviations, the mode if it is the same. For simple rotation the period of the
-rotation is compared: for a fit in the short-axis mode this is P_φ about the long axis, of frequency 1/P_φ − 1/P_ψ; where the verdict says that simple rotation explains the data as well, its period.
+rotation is compared: for a fit in the short-axis mode this is P_φ about the long axis, of frequency 1/P_φ − 1/P_ψ; where the verdict says that simple rotation explains the data as well, its period. That
+counts as wrong for every tumbler, however small its wobble. A cell without a value has a dash.
+
+Rules and their bounds were chosen on seeds 0 to 80; `make verdicts` has others.
 """
 
 import argparse
@@ -27,6 +30,7 @@ SHAPES = ("ellipsoid", "egg", "box", "smoothed box")
 LAWS = ("lambert", "lommel-seeliger", "lommel-seeliger + 0.1 lambert")
 PARTS = ("periods", "pole", "mode")
 ANSWERS = ("secure right", "secure wrong", "ambiguous", "not determined")
+NONE = "–"
 AXES_ERROR, NEAR_POLE, HALF_TURN, STARTS = 0.1, 10.0, 0.5, 20_000
 
 
@@ -391,6 +395,7 @@ def row(seed, starts):
     return line | {
         "best mode": state[0], "P_φ [h]": f"{state[1][0]:.6g}", "P_ψ [h]": f"{state[1][1]:.6g}", "pole apart [°]": f"{apart:.2f}", "pole σ [°]": f"{deviation:.3g}",
         **{f"right {part}": int(right[part]) for part in PARTS}, **{f"verdict {part}": getattr(verdict, part) for part in PARTS}, "secure is right": int(right["secure"]),
+        "simple": int(verdict.simple), "P [h]": f"{found.simple_rotation.period:.6g}",
         "reduced χ²": f"{found.reduced_chi_square:.4g}", "χ²": f"{least:.2f}", "χ² from truth": f"{from_truth(data):.2f}", "minima": len(found.optima),
         "truth is minimum": places[0] + 1 if places else "", "truth Δχ²": f"{found.optima[places[0]].chi_square - least:.2f}" if places else "",
         **{f"margin {part}": f"{margin:.4g}" for part, margin in zip(PARTS, verdict.margins)}, "reached": verdict.reached,
@@ -406,7 +411,7 @@ def answer(line, part):
 
 def tables(lines):
     """Prints how often each answer was given, by class, number of nights and signal to noise, and without a verdict how often the best state is right."""
-    lines = [line for line in lines if not line["error"]]
+    lines = [line for line in lines if line["error"] == NONE]
     bins = {
         "class": lambda line: line["class"],
         "nights": lambda line: next(f"{low:2d} to {high:2d}" for low, high in ((3, 4), (5, 7), (8, 10)) if int(line["nights"]) <= high),
@@ -426,7 +431,7 @@ def tables(lines):
 COLUMNS = [
     "seed", "class", "kind", "shape", "law", "nights", "points", "span [h]", "noise [mag]", "signal to noise", "starts", "true mode", "true P_φ [h]", "true P_ψ [h]",
     "true longitude [°]", "true latitude [°]", "best mode", "P_φ [h]", "P_ψ [h]", "pole apart [°]", "pole σ [°]", *(f"right {part}" for part in PARTS), *(f"verdict {part}" for part in PARTS),
-    "secure is right", "reduced χ²", "χ²", "χ² from truth", "minima", "truth is minimum", "truth Δχ²", *(f"margin {part}" for part in PARTS), "reached", "chance", "processor [s]", "error",
+    "secure is right", "simple", "P [h]", "reduced χ²", "χ²", "χ² from truth", "minima", "truth is minimum", "truth Δχ²", *(f"margin {part}" for part in PARTS), "reached", "chance", "processor [s]", "error",
 ]  # fmt: skip
 
 
@@ -436,12 +441,12 @@ def main(count, seed, out, starts=STARTS):
     known = list(csv.DictReader(out.open(encoding="utf-8", newline=""))) if out.exists() else []
     done = {int(line["seed"]) for line in known}
     with out.open("a", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
+        writer = csv.DictWriter(file, COLUMNS, restval=NONE, lineterminator="\n")
         if not known:
             writer.writeheader()
         for place in range(seed, seed + count):
             if place not in done:
-                writer.writerow(row(place, starts))
+                writer.writerow({name: NONE if cell == "" else cell for name, cell in row(place, starts).items()})
                 file.flush()
     tables(list(csv.DictReader(out.open(encoding="utf-8", newline=""))))
 

@@ -289,6 +289,23 @@ def light_curves() -> list[str]:
     return markdown(rows[0], (row.values() for row in rows))
 
 
+def verdicts() -> list[str]:
+    """How often the verdicts on simulated light curves are right, by quantity and class."""
+    rows = [row for row in read("verdicts.csv") if row["error"] == "–"]
+    lines = []
+    for part in ("periods", "pole", "mode"):
+        for name in ("short-axis", "long-axis", "principal-axis", "underdetermined"):
+            of_class = [row for row in rows if row["class"] == name]
+            said = [(row[f"verdict {part}"], row[f"right {part}"] == "1") for row in of_class]
+            counts = [
+                said.count(("secure", True)),
+                said.count(("secure", False)),
+                *(sum(word == other for word, _ in said) for other in ("ambiguous", "not determined")),
+            ]
+            lines.append([part, name, str(len(of_class)), *map(str, counts), str(sum(right for _, right in said))])
+    return markdown(["", "class", "sets", "secure and right", "secure and wrong", "ambiguous", "not determined", "best state right"], lines)
+
+
 def nature_moon() -> list[str]:
     """Largest differences of a rigid Moon from the orientation of DE421, by model and span."""
     header = ["model", "years", 'about axis 1 ["]', 'axis 2 ["]', 'axis 3 ["]', 'whole angle ["]']
@@ -407,6 +424,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "sweep-accuracy": sweep_accuracy,
     "sweep-speed": sweep_speed,
     "verified": verified,
+    "verdicts": verdicts,
 }
 
 

@@ -17,8 +17,9 @@ from andoyer.fit._curve import Curve, States
 from andoyer.fit._given import enough, generator_of, scene_of, shaped, span, whole_number
 from andoyer.fit._magnitudes import POGSON, ZeroPoints
 from andoyer.fit._message import composed, largest_reduced, rivals
-from andoyer.fit._observed import Data, Light, Seen, confused, data_of
+from andoyer.fit._observed import Data, Light, Seen, confused, data_of, gaps
 from andoyer.fit._optimum import HALF_TURN, Optimum
+from andoyer.fit._other_shape import with_series
 from andoyer.fit._result import Fit, Photometric, judged
 from andoyer.fit._scattering import axes_of, law
 from andoyer.fit._search import Population, at_other_rates, best, improve, random_spins, random_states, reflections, search
@@ -372,6 +373,9 @@ def _result(data: Data, found: Found, hypothesis: Hypothesis | None, delta_chi_s
     constant = np.sum(
         (curve.weights * curve.brightness) @ curve.members / (curve.weights @ curve.members) * ((curve.weights * curve.brightness) @ curve.members)
     )
+    constant = float(np.sum(curve.weights * curve.brightness**2) - constant)
+    others = with_series(hypothesis.data.curve, hypothesis.found.population.states, constant) if hypothesis is not None else None
+    steps = np.diff(np.sort(curve.times))
     evidence = Evidence(
         optima=minima,
         residuals=residuals,
@@ -380,8 +384,10 @@ def _result(data: Data, found: Found, hypothesis: Hypothesis | None, delta_chi_s
         duration=float(np.ptp(curve.times)),
         reached=found.reached,
         simple=simple,
+        other_shapes=others,
+        observed=float(np.sum(steps[~gaps(np.sort(curve.times))])),
         series=hypothesis.series if hypothesis is not None else np.inf,
-        constant=float(np.sum(curve.weights * curve.brightness**2) - constant),
+        constant=constant,
         undetermined=frozenset(quantity.name for quantity in described(fit._steps, fit.covariance, fit.undetermined) if quantity.lost),
         unit=" s" if hasattr(data.epoch, "jd1") or has_units(as_one("times", data.times)) else "",
     )

@@ -1,8 +1,14 @@
 """`Verdict`: how far light curves determine periods, pole and mode, from the minima of χ² and the hypothesis of simple rotation.
 
 Differences of χ² are divided by a scale: the reduced χ² of the best fit if it is above 1, for what the model cannot show, times the correlation of neighbouring residuals, for what is
-counted several times. A rival is a minimum whose scaled Δχ² is below `NEAR`. A body is no ellipsoid, so a Fourier series of one period is a rival too: simple rotation with any light curve. The bounds are
-chosen and not calibrated: benches/verdicts.py measures on simulated data how often they are right.
+counted several times. A rival is a minimum whose scaled Δχ² is below `NEAR`. A body is no ellipsoid, so a Fourier series of one period is a rival too: simple rotation with any light curve.
+
+Simple rotation stands where tumbling gains no more than by chance. That does not make its period secure: of few points, of much noise or of a poor search nothing is gained either. It is secure if the best
+rotation, with a Fourier series in its angle beside it for another shape (`_other_shape`), leaves no room for a wobble: a wobble J [rad] changes the brightness by about J times the signal, and what is left
+beyond the noise, with `TRIALS` for what would not be seen, must be less than J²/2 of the squared signal for J = `WOBBLE`. No other period may fit as well, and the data must last through `COVERED` periods,
+nights alone counted. Such a rotation stands even where a tumbling ellipsoid fits better. The P_φ of a tumbler must be covered so too.
+
+benches/verdicts.py measures on simulated data how often a verdict is right.
 """
 
 from __future__ import annotations
@@ -16,6 +22,7 @@ import numpy as np
 from andoyer._extra import extra
 from andoyer._quaternions import Array
 from andoyer.fit._optimum import HALF_TURN, Optimum, turns
+from andoyer.fit._other_shape import OtherShapes
 
 SECURE, AMBIGUOUS, LOST = "secure", "ambiguous", "not determined"
 NEAR = 16.0
@@ -32,8 +39,10 @@ CHANCE = 1e-3
 """Probability of an improvement by chance above which a hypothesis with fewer parameters stands."""
 TRIALS = 40.0
 """Twice the logarithm of the ratio of the likelihoods of tumbling and of a series of one period, up to which the series stands: `NEAR` and 2 ln of 2e5 pairs of periods tried."""
-UNEXPLAINED = 0.05
-"""Part of the signal that a simple rotation leaves at most, noise apart, to be secure where tumbling gains nothing: wrong minima of a poor search gain nothing either."""
+WOBBLE = np.radians(3.0)
+"""Angle [rad] between axis and angular momentum that would show if it were there, for a simple rotation to be secure."""
+COVERED = 2.0
+"""Periods that the data last, gaps between nights apart: what was seen once does not repeat."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +108,10 @@ class Evidence:
     """Starts that led to the best minimum."""
     simple: Sequence[Optimum]
     """Simple rotations, the best first, beside a tumbling motion."""
+    other_shapes: OtherShapes | None
+    """Each simple rotation with a Fourier series in its angle."""
+    observed: float
+    """Duration without the gaps between nights."""
     series: float
     """χ² of a Fourier series of one period: of a simple rotation with another shape than an ellipsoid."""
     constant: float
@@ -144,6 +157,42 @@ def _chance(gain: float, best: float, evidence: Evidence) -> float:
     return float(extra("scipy.special", "andoyer.fit").fdtrc(2, degrees, gain / tau / max(best / tau / degrees, 1e-300)))
 
 
+@dataclass(frozen=True)
+class Rotation:
+    """What speaks for a simple rotation of a body of any shape."""
+
+    stands: bool
+    """Whether tumbling explains no more."""
+    near: tuple[Optimum, ...]
+    """Simple rotations that fit nearly as well as the best, the one without a series first."""
+    wobble: float
+    """The least angle [rad] between axis and angular momentum that would have shown; infinite if the data have few points."""
+    established: bool
+    """Whether it leaves no room for a wobble, and the data cover it."""
+
+
+def rotation(evidence: Evidence) -> Rotation:
+    """How well simple rotations with a series explain the data."""
+    simple, others = simple_rotation(evidence), evidence.other_shapes
+    if simple is None or others is None:
+        return Rotation(False, (), np.inf, False)
+    order = np.argsort(others.chi_squares, kind="stable")
+    least, left = float(others.chi_squares[order[0]]), others.residuals[order[0]]
+    tau, points = correlation(left, evidence.curves), len(left)
+    wobble, by = np.inf, tau
+    if points >= 2 * others.parameters and np.isfinite(least):
+        reduced = max(1.0, least / (points - others.parameters))
+        by = reduced * tau
+        wobble = float(np.sqrt(2 * ((reduced - 1) * points + TRIALS * tau) / max(evidence.constant, 1e-300)))
+    near = [evidence.simple[place] for place in order if others.chi_squares[place] - least < NEAR * by]
+    bounded = wobble < WOBBLE
+    return Rotation(simple.probability > CHANCE or bounded, (evidence.simple[0], *near), wobble, bounded and _covered(evidence, simple.period))
+
+
+def _covered(evidence: Evidence, period: float) -> bool:
+    return evidence.observed >= COVERED * period
+
+
 def judge(evidence: Evidence) -> Verdict:
     """The verdict."""
     best = evidence.optima[0]
@@ -166,16 +215,14 @@ def judge(evidence: Evidence) -> Verdict:
         poles += [optimum.direction] * others[1]
         modes.add(optimum.mode)
     seen = (evidence.constant - best.chi_square) / by > NEAR * (6 if best.mode != "principal-axis" else 4)
-    found = evidence.reached >= REACHED
-    simple = simple_rotation(evidence)
-    stands = simple is not None and simple.probability > CHANCE
+    found = evidence.reached >= REACHED and _covered(evidence, best.periods.precession)
+    simple, steady = simple_rotation(evidence), rotation(evidence)
+    stands = steady.stands
     if stands:
-        near = [optimum for optimum in evidence.simple if (optimum.chi_square - evidence.simple[0].chi_square) / by < NEAR]
-        pairs = []
-        for optimum in near:
+        pairs, found, seen = [], steady.established, seen or steady.established
+        for optimum in steady.near:
             pairs += [optimum.periods] * all(turns(optimum.periods, pair, evidence.duration) > HALF_TURN for pair in pairs)
             poles += [optimum.direction] * all(np.arccos(np.clip(optimum.direction @ pole, -1, 1)) > SEPARATE for pole in poles)
-        found = evidence.simple[0].chi_square - evidence.degrees < UNEXPLAINED * evidence.constant
     periods = _of(len(pairs), seen, found)
     if evidence.undetermined & ({"period"} if stands else {"P_φ", "P_ψ", "period"}):
         periods = LOST
@@ -194,7 +241,7 @@ def judge(evidence: Evidence) -> Verdict:
         (first[0], first[1], first[2]),
         evidence.reached,
         stands,
-        _sentence(evidence, (periods, pole, mode), (len(pairs), len(poles)), sorted(modes), simple),
+        _sentence(evidence, (periods, pole, mode), (len(pairs), len(poles)), sorted(modes), simple, steady),
     )
 
 
@@ -217,12 +264,14 @@ def _of(count: int, seen: bool, found: bool) -> str:
     return SECURE if count == 1 and found else AMBIGUOUS
 
 
-def _sentence(evidence: Evidence, words: tuple[str, str, str], counts: tuple[int, int], modes: list[str], simple: SimpleRotation | None) -> str:
+def _sentence(
+    evidence: Evidence, words: tuple[str, str, str], counts: tuple[int, int], modes: list[str], simple: SimpleRotation | None, steady: Rotation
+) -> str:
     best = evidence.optima[0]
     periods, pole, mode = words
     if best.mode == "principal-axis":
         what = f"The period {best.periods.precession:.6g}{evidence.unit}"
-    elif simple is not None and simple.probability > CHANCE:
+    elif simple is not None and steady.stands:
         what = f"The period {simple.period:.6g}{evidence.unit} of a simple rotation"
     else:
         precession, rotation = best.periods
@@ -234,6 +283,8 @@ def _sentence(evidence: Evidence, words: tuple[str, str, str], counts: tuple[int
     if simple is not None:
         worse = f"worse by Δχ² {simple.delta_chi_square:.4g}" if simple.delta_chi_square > 0.05 else "as well"
         text += f"; simple rotation with {simple.period:.6g}{evidence.unit} fits {worse} (by chance {simple.probability:.1g})"
+        if steady.established:
+            text += f"; with another shape it leaves no wobble above {np.degrees(steady.wobble):.1f}°"
     elif len(modes) > 1:
         text += f" (also {', '.join(name for name in modes if name != best.mode)})"
     if evidence.reached < REACHED:
