@@ -7,6 +7,7 @@ Sunlight that an irregular asteroid scatters and radiates turns its axis and spi
 
 import matplotlib.pyplot as plt
 import numpy as np
+from numpy.typing import NDArray
 
 import andoyer
 
@@ -17,12 +18,12 @@ rows, columns = 10, 20
 colatitudes, longitudes = np.meshgrid(np.pi * np.arange(1, rows) / rows, 2 * np.pi * np.arange(columns) / columns, indexing="ij")
 ring = np.stack([np.sin(colatitudes) * np.cos(longitudes), np.sin(colatitudes) * np.sin(longitudes), np.cos(colatitudes)], axis=-1)
 u = np.vstack([[0, 0, 1], ring.reshape(-1, 3), [0, 0, -1]])
-triangles = []
+corners: list[list[int]] = []
 for j, k in zip(range(columns), np.roll(range(columns), -1)):
-    triangles += [[0, 1 + j, 1 + k], [len(u) - 1, len(u) - 1 - columns + k, len(u) - 1 - columns + j]]
+    corners += [[0, 1 + j, 1 + k], [len(u) - 1, len(u) - 1 - columns + k, len(u) - 1 - columns + j]]
     for first in range(1, 1 + (rows - 2) * columns, columns):
-        triangles += [[first + j, first + columns + j, first + k], [first + k, first + columns + j, first + columns + k]]
-triangles = np.array(triangles)
+        corners += [[first + j, first + columns + j, first + k], [first + k, first + columns + j, first + columns + k]]
+triangles = np.array(corners)
 random = np.random.default_rng(13)
 centres = random.normal(size=(6, 3))
 bumps = np.exp(3 * (u @ (centres / np.linalg.norm(centres, axis=1, keepdims=True)).T - 1))
@@ -32,11 +33,11 @@ vertices = 500 * (1 + bumps @ random.uniform(-0.12, 0.18, 6))[:, None] * u * [1.
 # The inertia of the solid is a sum over tetrahedra with a corner at the centre. Facets and body are brought to the principal axes of the centre of mass.
 
 
-def solid(vertices, triangles, density):
+def solid(vertices: NDArray[np.float64], triangles: NDArray[np.int_], density: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The centre of mass, and the tensor of ∫ x xᵀ dm about the origin."""
     a, b, c = (vertices[triangles[:, corner]] for corner in range(3))
     masses = density / 6 * np.sum(a * np.cross(b, c), axis=1)
-    squares = sum(np.einsum("i,ij,ik->jk", masses / 20, x, x) for x in (a, b, c, a + b + c))
+    squares = np.sum([np.einsum("i,ij,ik->jk", masses / 20, x, x) for x in (a, b, c, a + b + c)], axis=0)
     return masses @ (a + b + c) / 4 / masses.sum(), squares
 
 
@@ -71,7 +72,7 @@ states = evolution.at(times)
 figure, panels = plt.subplots(3, 1, sharex=True, figsize=(7, 7), layout="constrained")
 panels[0].plot(times / 1e6 / year, states.spin_period / 3600)
 panels[0].set_ylabel("spin period [h]")
-panels[1].plot(times / 1e6 / year, np.degrees(states.obliquity))
+panels[1].plot(times / 1e6 / year, np.degrees(np.asarray(states.obliquity, dtype=float)))
 panels[1].set_ylabel("obliquity [°]")
 panels[2].plot(times / 1e6 / year, states.excess / (body.moments[2] / body.moments[1] - 1))
 panels[2].set(ylabel="ξ / ξ_sep", ylim=(0, 1.05), xlabel="time [million years]")

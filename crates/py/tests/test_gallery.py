@@ -34,6 +34,7 @@ def test_there_are_the_twenty_of_them():
         "relaxation",
         "satellite_years",
         "yorp_cycles",
+        "cubesats",
     ]
 
 

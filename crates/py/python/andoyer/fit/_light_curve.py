@@ -370,10 +370,10 @@ def _result(data: Data, found: Found, hypothesis: Hypothesis | None, delta_chi_s
     fit, zero_points, lost, residuals = _of_minimum(data, found.population.states.part(slice(0, 1)), best, scale_errors)
     simple = _optima(hypothesis.data, hypothesis.found, scale_errors) if hypothesis is not None else []
     curve = data.curve
-    constant = np.sum(
+    of_means = np.sum(
         (curve.weights * curve.brightness) @ curve.members / (curve.weights @ curve.members) * ((curve.weights * curve.brightness) @ curve.members)
     )
-    constant = float(np.sum(curve.weights * curve.brightness**2) - constant)
+    constant = float(np.sum(curve.weights * curve.brightness**2) - of_means)
     others = with_series(hypothesis.data.curve, hypothesis.found.population.states, constant) if hypothesis is not None else None
     steps = np.diff(np.sort(curve.times))
     evidence = Evidence(
