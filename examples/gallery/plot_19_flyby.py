@@ -75,7 +75,7 @@ ensemble = andoyer.Ensemble.from_periods(
     errors="nan",
 )
 before, after = (ensemble.after(time) for time in span)
-print("draws that no body can have:", len(after.errors))
+print("draws that no body can have:", len(before.errors))
 
 # %%
 # After the passage each body tumbles freely again, with other periods. Most keep the short-axis mode, as Ďurech et al. (2026, arXiv:2604.24566) expect; in the others the long axis makes full turns. The spin changes by up to a factor of

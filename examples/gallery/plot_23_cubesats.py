@@ -26,7 +26,7 @@ released = andoyer.Ensemble.from_orbital(body, [0, 0, 0], rates, orbit=orbit, el
 
 # %%
 # The angle between the long axis and the direction to the Earth, over a day. Members at the border tumble chaotically, so that little is known of their attitude at the end of the day; the warning counts those
-# that miss the tolerance. Of which nothing would be known any more, the later rows would be NaN, and ``plans[i].known`` would have the time. A member counts as captured if it never turns its other end to the Earth.
+# that miss the tolerance. If nothing is known of a member from some time on, its later rows are NaN, ``plans[i].known`` has the time, and it does not count as captured. A member is captured if it never turns its other end to the Earth.
 
 times = np.linspace(0, day, 400)
 seen = released.orbital(times, elements_of="rotating", frame="lvlh")

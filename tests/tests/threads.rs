@@ -1,4 +1,4 @@
-//! One motion, and one body's shared tables, from eight threads at once: the bits of one thread.
+//! One motion, and the tables of the series, from eight threads at once: the bits of one thread.
 
 use std::thread;
 

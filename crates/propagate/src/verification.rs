@@ -215,7 +215,7 @@ impl Motion {
     /// The first and the last time of a verification: those given, or all for which the error bound holds.
     fn verified_span(&self, span: Option<(f64, f64)>) -> Result<(f64, f64), Error> {
         let epoch = self.scene.state().epoch;
-        let asked = self.scene.asked_span();
+        let asked = self.plan.known().map(<(f64, f64)>::from).or(self.scene.asked_span());
         let [first, last] = match asked {
             Some((start, stop)) => [start.min(epoch), stop.max(epoch)],
             None => {

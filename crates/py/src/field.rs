@@ -116,6 +116,9 @@ impl Field {
         // What a table of places calls positions.
         let table = table.map_err(|problem| match problem {
             Error::Length { found, expected, .. } => Error::Length { argument: "vectors", found, expected },
+            Error::Table { argument: "times", index, value, bound } => {
+                Error::Number { argument: "times", index: Some(index), value, bound }
+            }
             Error::Table { argument: "positions", index, value, .. } => Error::Number {
                 argument: "vectors",
                 index: Some(index),

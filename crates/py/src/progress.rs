@@ -6,10 +6,12 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use andoyer_propagate::Error as Propagation;
 use andoyer_series::Error as Algebra;
 use andoyer_series::progress::Progress;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 use crate::computing::{detached, interruptible_with};
 use crate::error;
+use crate::scene::arguments::kind;
 
 /// Runs `compute` without the interpreter lock and returns its result. An exception in `progress` stops the computation and is raised here.
 pub(crate) fn reported<T: Send>(
@@ -50,6 +52,9 @@ pub(crate) fn counted<T: Send>(
     (done, of): (&AtomicUsize, usize),
     compute: impl FnOnce(&AtomicBool) -> Result<T, Propagation> + Send,
 ) -> PyResult<T> {
+    if !progress.is_callable() {
+        return Err(PyTypeError::new_err(format!("progress must be callable: got {}", kind(progress))));
+    }
     let (py, callable) = (progress.py(), progress.clone().unbind());
     let mut told = None;
     let mut tell = |py: Python<'_>| {

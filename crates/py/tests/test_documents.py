@@ -152,12 +152,21 @@ def missing(text):
         elif arguments:
             known = inspect.signature(holder).parameters
             yield from (f"{name}({key}=)" for key in re.findall(r"(\w+)=…", re.sub(r"[A-Z]\w+\(.*?\)", "", arguments)) if key not in known)
+            given = [part.strip() for part in re.sub(r"\[.*?\]|\{.*?\}|\([^()]*\)", "X", arguments.rstrip(")")).split(",") if part.strip()]
+            named = {part.split("=")[0]: 1 for part in given if "=" in part}
+            if given and set(named) <= set(known):
+                own = [1] * (next(iter(known)) == "self") + [1 for part in given if "=" not in part]
+                try:
+                    inspect.signature(holder).bind(*own, **named)
+                except TypeError as problem:
+                    yield f"{name}: {problem}"
 
 
 def test_card_of_calls_has_no_name_that_the_package_does_not_have():
     text = (REPOSITORY / "docs/calls.md").read_text(encoding="utf-8")
     table = "\n".join(line for line in text.splitlines() if line.startswith("| `"))
     assert table.count("`") > 150 and list(missing(table)) == []
+    assert list(missing("`Torque.sphere(table)`")) == ["Torque.sphere: missing a required argument: 'source'"]
     assert list(missing("`Scene.solv()`, `Scene(body, tolerances=…)`, `plot.sumary(motion)`, `Motion.at`, `normalise(h)`")) == [
         "Scene.solv",
         "Scene(tolerances=)",

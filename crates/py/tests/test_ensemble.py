@@ -395,5 +395,8 @@ def test_members_of_which_nothing_is_known_at_the_end_are_served_up_to_there():
         samples = ensemble.at([0.0, 50.0, last, last + 1e-6])
     assert np.isnan(samples.attitude[0, :, 0]).tolist() == [False, False, False, True] and 0 in samples.errors
     assert "nearby states separate so fast" in str(samples.errors[0])
+    again = pickle.loads(pickle.dumps(ensemble[0]))
+    assert again.plan.known == (first, last) and np.array_equal(again.attitude(last), ensemble[0].attitude(last))
+    assert ensemble[0].verify(samples=3).times[-1] == last
     later = ensemble.after(2000.0)
     assert later.mode[0] == "" and np.isnan(later.energy_ratio[0]) and ensemble.after(50.0).mode[0] != ""

@@ -151,5 +151,5 @@ def test_progress_counts_the_members_to_the_last_and_may_stop_the_evaluation():
 
     with pytest.raises(RuntimeError, match="enough"):
         ensemble.at([0.0], progress=stop)
-    with pytest.raises(TypeError, match="callable"):
+    with pytest.raises(TypeError, match="^progress must be callable: got int"):
         ensemble.at([0.0], progress=3)

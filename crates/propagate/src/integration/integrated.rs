@@ -123,19 +123,17 @@ impl Integrated {
             };
         }
         let dated = |time: f64| scene.state().epoch + scaled(time, -problem.exponent);
-        let ([start, stop], known) = (held.map(dated), [0, 1].map(|side| dated(last_known(&profiles[side]).0)));
+        let ([start, stop], known) = (held.map(dated), [0, 1].map(|side| dated(last_known(&profiles[side]))));
         let span = scene.asked_span().map_or([start, stop], <[f64; 2]>::from);
         Err(Error::Unpredictable { tolerance, span, start, stop, known })
     }
 
-    /// The motion up to the last times at which something is known of it.
+    /// The motion up to the last times at which something is known of it. The error bound is that over the span.
     fn while_known(mut self, profiles: &[Profile; 2]) -> Self {
-        self.error = FLOOR;
         for (side, profile) in profiles.iter().enumerate() {
-            let (time, error) = last_known(profile);
-            self.error = self.error.max(error);
             self.lost[side] = profile.last().is_some_and(|(_, error)| *error >= PI);
             if self.lost[side] {
+                let time = last_known(profile);
                 self.reach[side] = scaled(time, -self.exponent);
                 self.sides[side].end_at(time, self.order);
             }
@@ -168,9 +166,9 @@ impl Integrated {
     }
 }
 
-/// The last time at which something is known of the attitude, and its error bound.
-fn last_known(profile: &Profile) -> (f64, f64) {
-    profile.iter().take_while(|(_, error)| *error < PI).last().copied().unwrap_or((0.0, FLOOR))
+/// The last time at which something is known of the attitude.
+fn last_known(profile: &Profile) -> f64 {
+    profile.iter().take_while(|(_, error)| *error < PI).last().map_or(0.0, |(time, _)| *time)
 }
 
 /// A motion by steps of a relative error, with its error bounds before and after the epoch, and the errors of all steps relative to those by rounding alone.

@@ -176,7 +176,7 @@ impl Plan {
     /// # Ok::<(), andoyer_propagate::Error>(())
     /// ```
     pub fn meets_tolerance(&self) -> bool {
-        self.error_bound <= self.tolerance.max(ROUNDED_TOLERANCE)
+        self.known().is_none() && self.error_bound <= self.tolerance.max(ROUNDED_TOLERANCE)
     }
 
     /// A sentence with the error bound and the tolerance if the tolerance is not met, otherwise `None`.

@@ -33,7 +33,7 @@ type Slot<V> = Arc<Mutex<Option<Arc<V>>>>;
 struct Results<K, V> {
     /// With the memory of each, once it is made.
     by_key: HashMap<K, (Slot<V>, Option<usize>)>,
-    /// The keys in the order in which they were first made, if the oldest goes.
+    /// The keys in the order in which they were last made, if the oldest goes.
     made: VecDeque<K>,
     memory: usize,
 }
@@ -68,7 +68,15 @@ impl<K: Clone + Eq + Hash, V: Keep> Kept<K, V> {
         if let Some(result) = known.as_ref().filter(|result| serves(result)) {
             return Ok(Arc::clone(result));
         }
-        let result = Arc::new(make()?);
+        let result = match make() {
+            Ok(result) => Arc::new(result),
+            Err(error) => {
+                if known.is_none() {
+                    self.results().by_key.remove(&key);
+                }
+                return Err(error);
+            }
+        };
         *known = Some(Arc::clone(&result));
         drop(known);
         self.count(key, slot, result.memory());
@@ -89,13 +97,16 @@ impl<K: Clone + Eq + Hash, V: Keep> Kept<K, V> {
         if memory > self.most || self.goes == Goes::Newest && results.memory + memory > self.most {
             return;
         }
+        if counted.is_some() {
+            results.made.retain(|made| *made != key);
+        }
         while results.memory + memory > self.most
             && let Some(oldest) = results.made.pop_front()
         {
             let gone = results.by_key.remove(&oldest).and_then(|(_, memory)| memory);
             results.memory -= gone.unwrap_or(0);
         }
-        if self.goes == Goes::Oldest && counted.is_none() {
+        if self.goes == Goes::Oldest {
             results.made.push_back(key.clone());
         }
         results.memory += memory;
@@ -149,6 +160,12 @@ mod tests {
         assert!(Arc::ptr_eq(&third, &of(&kept, 3, 10)) && !Arc::ptr_eq(&first, &of(&kept, 1, 10)));
         assert!(of(&kept, 4, 21).len() == 21 && kept.get(&4).is_none() && kept.results().memory <= 20);
 
+        let kept = Kept::new(20, Goes::Oldest);
+        for (key, bytes) in [(1, 10), (2, 8), (1, 15), (3, 10)] {
+            of(&kept, key, bytes);
+            assert!(kept.results().memory <= 20, "{key}");
+        }
+
         let kept = Kept::new(20, Goes::Newest);
         for key in 1..=3 {
             kept.keep(key, Arc::new(vec![0; 10]));
@@ -164,6 +181,7 @@ mod tests {
     fn a_result_that_fails_is_tried_again() {
         let kept: Kept<u64, Vec<u8>> = Kept::new(20, Goes::Oldest);
         assert_eq!(kept.of(1, |_| true, || Err("no")), Err("no"));
+        assert!(kept.results().by_key.is_empty());
         assert_eq!(of(&kept, 1, 3).len(), 3);
     }
 }

@@ -27,6 +27,8 @@ const PROBES: usize = 15;
 const DOUBTFUL: [[f64; 2]; 2] = [[1e-12, 1e-7], [3e8, 1e11]];
 /// Acceleration × step² over the distance of a path that is not straight.
 const STRAIGHT: f64 = 1e-10;
+/// Cosine between acceleration and direction to the body from which on they are those of two bodies.
+const TOWARDS: f64 = 0.9;
 /// The most coefficients of a polynomial.
 pub(crate) const COEFFICIENTS: usize = 2 * ROWS;
 
@@ -140,8 +142,8 @@ impl TabulatedOrbit {
         self.gm
     }
 
-    /// A sentence if the lengths or times of the table seem to have other units than gm: r² × acceleration, which is gm (1 + m/M) for two bodies with masses M and m, is some 1e9 times gm
-    /// or 1e-9 of it.
+    /// A sentence if the lengths or times of the table seem to have other units than gm: the acceleration is towards the body, and r² × acceleration, which is gm (1 + m/M) for two bodies with
+    /// masses M and m, is some 1e9 times gm or 1e-9 of it. A body that hardly acts beside others may be named wrongly, and a fault of units there stays unseen.
     ///
     /// ```
     /// use andoyer_propagate::TabulatedOrbit;
@@ -161,8 +163,10 @@ impl TabulatedOrbit {
             .filter_map(|(row, [position, _, acceleration])| {
                 let (distance, pull) = (Vector3::from(position).norm(), Vector3::from(acceleration).norm());
                 let step = self.times[row + 1] - self.times[row];
-                // A straight path has the acceleration of its rounding errors.
-                (step * pull * step > STRAIGHT * distance).then(|| distance * pull / self.gm * distance)
+                // A straight path has the acceleration of its rounding errors, a satellite of another body not that towards this one.
+                let towards = -Vector3::from(position).normalize().dot(&Vector3::from(acceleration).normalize());
+                let shows = step * pull * step > STRAIGHT * distance && towards > TOWARDS;
+                shows.then(|| distance * pull / self.gm * distance)
             })
             .collect();
         ratios.sort_by(f64::total_cmp);

@@ -1,8 +1,14 @@
 //! Copies and pickles of a motion.
 
+use std::sync::atomic::AtomicBool;
+
+use andoyer_propagate::Ensemble;
+use andoyer_propagate::ensemble::OnError;
 use pyo3::prelude::*;
 
 use super::Motion;
+use crate::computing::interruptible;
+use crate::error;
 use crate::scene_class::Scene;
 use crate::values::immutable;
 
@@ -10,13 +16,19 @@ immutable!(Motion);
 
 #[pymethods]
 impl Motion {
-    /// A motion is pickled as its scene and solved again on loading, without a `ToleranceWarning`.
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Scene,))> {
-        Ok((py.get_type::<Self>().getattr("_restored")?, (self.scene(),)))
+    /// A motion is pickled as its scene and solved again on loading, without a `ToleranceWarning`: that of a member of which nothing is known at the end of the span as a member.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Scene, bool))> {
+        Ok((py.get_type::<Self>().getattr("_restored")?, (self.scene(), self.0.plan().known().is_some())))
     }
 
     #[staticmethod]
-    fn _restored(py: Python<'_>, scene: PyRef<'_, Scene>) -> PyResult<Self> {
-        scene.solved(py).map(|motion| Self(motion, scene.calendar))
+    #[pyo3(signature = (scene, while_known=false))]
+    fn _restored(py: Python<'_>, scene: PyRef<'_, Scene>, while_known: bool) -> PyResult<Self> {
+        if !while_known {
+            return scene.solved(py).map(|motion| Self(motion, scene.calendar));
+        }
+        let (given, calendar) = (scene.scene.clone(), scene.calendar);
+        let alone = |_: &AtomicBool| Ensemble::from_scenes(vec![Ok(given)], OnError::Nan)?.motion(0);
+        interruptible(py, true, error::propagation, alone).map(|motion| Self(motion, calendar))
     }
 }
