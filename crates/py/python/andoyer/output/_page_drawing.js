@@ -276,6 +276,6 @@ function load(next) {
 }
 
 // For scripts: another motion, the state and the Andoyer variables at a time, and a moment that is held.
-window.andoyer = { evaluate, load, state, variables: t => variables(state(t)), against: t => against(state(t)), show: t => { run(false); time = t; draw(t); } };
+window.andoyer = { evaluate, load, now: () => time, state, variables: t => variables(state(t)), against: t => against(state(t)), show: t => { run(false); time = t; draw(t); } };
 load(data);
 requestAnimationFrame(tick);
