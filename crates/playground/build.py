@@ -8,6 +8,7 @@ It needs rustup. The command wasm-bindgen, of the version of the lock file, is i
 """
 
 import gzip
+import json
 import os
 import re
 import shutil
@@ -56,14 +57,14 @@ def library() -> None:
 
 
 def pages() -> None:
-    """The pages: those of docs/playground, and the view from the parts of `plot.page`."""
+    """The pages: those of docs/playground, and the view in its frame from the parts of `plot.page`."""
     for page in sorted(PAGES.iterdir()):
         shutil.copy(page, OUT)
     text = (VIEW / "_page.html").read_text(encoding="utf-8")
     drawing = (VIEW / "_page_drawing.js").read_text(encoding="utf-8")
     for mark, part in {"@TITLE@": "", "@DATA@": "", "@EVALUATOR@": EVALUATOR, "@DRAWING@": drawing}.items():
         text = text.replace(mark, part)
-    (OUT / "view.html").write_text(text, encoding="utf-8")
+    (OUT / "view.js").write_text(f"export const VIEW = {json.dumps(text)};\n", encoding="utf-8")
 
 
 def main() -> None:

@@ -1,4 +1,6 @@
 // The playground: a scene as TOML is the one state. Presets, sliders and the address write this text; the library, compiled to WebAssembly, reads it.
+import { VIEW } from "./view.js";
+
 const element = id => document.getElementById(id);
 const TURN = 2 * Math.PI, AXES = ["--first", "--second", "--third"], SHOWN = { rotations: 60, periods: 3, nodes: 192 };
 
@@ -259,24 +261,29 @@ function drawPlane() {
   context.strokeStyle = css("--line");
   context.strokeRect(left, top, right - left, bottom - top);
   for (const [text, ratio] of [["1", 1], ["0", 0], ["−1", -1]]) context.fillText(text, 8, place(0, ratio)[1] + 4);
-  for (const [text, angle] of [["−180°", -0.36], ["ν", 0], ["180°", 0.4]]) context.fillText(text, place(angle * TURN, 0)[0] - 10, height - 4);
+  for (const [text, angle, align] of [["−180°", -0.5, "left"], ["ν", 0, "center"], ["180°", 0.5, "right"]]) {
+    context.textAlign = align;
+    context.fillText(text, place(angle * TURN, 0)[0], height - 4);
+  }
   const [a, b, c] = data.order.map(k => 1 / data.moments[k]);
   // (1 − x²)(a sin²ν + b cos²ν) + c x² = level, with x = N/M and the inverse moments a ≥ b ≥ c.
   const level = (energy, color, wide) => {
     context.strokeStyle = color;
     context.lineWidth = wide;
-    for (const sign of [1, -1]) {
+    // Around the long axis a level has an arc about ±90° alone, which ends at x = 0.
+    const end = energy > b ? Math.asin(Math.sqrt((energy - b) / (a - b))) : null;
+    const arcs = end === null ? [[-TURN / 2, TURN / 2]] : [[-TURN / 2 + end, -end], [end, TURN / 2 - end]];
+    for (const [from, to] of arcs) for (const sign of [1, -1]) {
       context.beginPath();
-      let joined = false;
       for (let k = 0; k <= 240; k++) {
-        const angle = TURN * (k / 240 - 0.5), flat = a * Math.sin(angle) ** 2 + b * Math.cos(angle) ** 2, square = (flat - energy) / (flat - c);
-        if (square >= 0 && square <= 1) context[joined ? "lineTo" : "moveTo"](...place(angle, sign * Math.sqrt(square)));
-        joined = square >= 0 && square <= 1;
+        // Denser at both ends, where the arc is steep.
+        const angle = (from + to) / 2 - (to - from) / 2 * Math.cos(Math.PI * k / 240), flat = a * Math.sin(angle) ** 2 + b * Math.cos(angle) ** 2;
+        context.lineTo(...place(angle, sign * Math.sqrt(Math.max(0, Math.min(1, (flat - energy) / (flat - c || 1))))));
       }
       context.stroke();
     }
   };
-  for (const part of [0.25, 0.6, 0.9]) { level(c + part * (b - c), css("--line"), 1); level(b + (1 - part) * (a - b), css("--line"), 1); }
+  for (const part of [0.25, 0.6, 0.9]) { if (b > c) level(c + part * (b - c), css("--line"), 1); if (a > b) level(b + (1 - part) * (a - b), css("--line"), 1); }
   level(b, css("--pale"), 1.6);
   const times = evenly(data.start, data.polhodeStop > data.start ? data.polhodeStop : data.stop, 800), rates = solved.rates(times);
   context.strokeStyle = context.fillStyle = css("--polhode");
@@ -301,10 +308,14 @@ function show() {
   drawStrip();
   drawPlane();
   marked = null;
-  element("plan").textContent = solved.plan();
+  element("plan").replaceChildren(...solved.plan().trim().split("\n").map(line => {
+    const row = document.createElement("tr");
+    for (const text of [line.slice(0, 14).trim(), line.slice(14)]) row.insertCell().append(text);
+    return row;
+  }));
   const view = element("view");
   if (view.contentWindow?.andoyer) view.contentWindow.andoyer.load(data);
-  else if (!view.getAttribute("src")) view.src = "view.html";
+  else if (!view.srcdoc) view.srcdoc = VIEW;
 }
 
 // Solves a text and shows it. One that is refused leaves the last motion, with the refusal above it.
