@@ -318,20 +318,28 @@ function show() {
   else if (!view.srcdoc) view.srcdoc = VIEW;
 }
 
+function refuse(message) {
+  element("problem").textContent = message;
+  element("problem").hidden = message === "";
+}
+
+const presetOf = text => Object.values(PRESETS).find(preset => preset.toml === text);
+
 // Solves a text and shows it. One that is refused leaves the last motion, with the refusal above it.
-function use(text) {
+function use(text, note = "A scene of your own.") {
   let next;
   try {
     next = new library.Solved(text);
   } catch (error) {
-    element("problem").textContent = error.message;
-    element("problem").hidden = false;
+    refuse(error.message);
     return false;
   }
-  element("problem").hidden = true;
+  refuse("");
   solved?.free();
   solved = next;
   scene = text;
+  element("note").textContent = presetOf(scene)?.note ?? note;
+  for (const button of element("presets").children) button.setAttribute("aria-pressed", String(PRESETS[button.dataset.preset] === presetOf(scene)));
   show();
   later();
   return true;
@@ -342,6 +350,7 @@ let waiting;
 function later() {
   clearTimeout(waiting);
   waiting = setTimeout(() => {
+    if (!element("problem").hidden) return;
     history.replaceState(null, "", `#${unit === "s" ? "" : `${unit};`}${encodeURIComponent(scene)}`);
     if (document.activeElement !== element("text")) element("text").value = scene;
     const cost = measure();
@@ -416,22 +425,29 @@ function settle(moved = null) {
 function replace(text, options = {}) {
   unit = options.unit ?? "s";
   if (options.shape) element("shape").value = options.shape;
-  const done = use(text);
+  const done = use(text, options.note);
   if (done) settle();
-  for (const button of element("presets").children) button.setAttribute("aria-pressed", String(PRESETS[button.dataset.preset].toml === scene));
-  const preset = Object.values(PRESETS).find(other => other.toml === scene);
-  element("note").textContent = options.note ?? preset?.note ?? "A scene of your own.";
   return done;
 }
+// An address that somebody cut is no code of a text.
+function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
+}
+// The scene of the address. If it is refused, its text is there to be mended.
 function fromAddress() {
   const [, given, text] = /^#(?:([a-z]{1,3});)?([^]*)$/.exec(location.hash) ?? [];
   if (!text) return false;
-  try {
-    const toml = decodeURIComponent(text), preset = Object.values(PRESETS).find(other => other.toml === toml);
-    return replace(toml, { unit: given, shape: preset?.shape });
-  } catch {
-    return false;
+  const toml = decoded(text);
+  const done = replace(toml, { unit: given, shape: presetOf(toml)?.shape });
+  if (!done) {
+    element("text").value = toml;
+    document.querySelector("details").open = true;
   }
+  return done;
 }
 
 const CODE = {
@@ -498,12 +514,15 @@ async function start() {
     library = await import("./andoyer_playground.js");
     await library.default();
   } catch (error) {
-    element("problem").textContent = `The library is not beside this page (${error.message}). "make playground" builds it into target/playground; a browser loads it from a server only: python -m http.server.`;
-    element("problem").hidden = false;
+    refuse(`The library is not beside this page (${error.message}). "make playground" builds it into target/playground; a browser loads it from a server only: python -m http.server.`);
     throw error;
   }
   controls();
-  if (!fromAddress()) replace(PRESETS.flip.toml, PRESETS.flip);
+  if (!fromAddress()) {
+    const refusal = element("problem").textContent;
+    replace(PRESETS.flip.toml, PRESETS.flip);
+    refuse(refusal);
+  }
   requestAnimationFrame(mark);
 }
 

@@ -159,6 +159,8 @@ def test_refused_scene_says_why_and_leaves_the_last_motion(opened):
     assert "the largest must not exceed" in page.inner_text("#problem")
     assert page.evaluate("playground.solved().mode()") == "short-axis"
     press(page, "apophis")
+    cut = opened("#%5Bbody%5D%0Amoments%20%3D%20%5B1.0%5D%")
+    assert cut.is_visible("#problem") and cut.evaluate("playground.solved().mode()") == "short-axis"
 
 
 @pytest.mark.parametrize("preset", PRESETS)
