@@ -170,21 +170,25 @@ function sample() {
   const attitudes = solved.attitudes(times), frames = held() ? solved.frames(times, elementsOf()) : null, angles = [new Float32Array(count), new Float32Array(count), new Float32Array(count)];
   const [x, y, z, w, ...rates] = evaluate(data.start), momentum = [0, 0, 0];
   data.axes.forEach((axis, k) => { const part = data.moments[k] * (axis[0] * rates[0] + axis[1] * rates[1] + axis[2] * rates[2]); axis.forEach((component, n) => { momentum[n] += part * component; }); });
-  let pole = turned([-x, -y, -z, w], momentum);
-  const size = Math.hypot(...pole) || 1;
-  pole = pole.map(part => part / size);
-  for (let k = 0; k < count; k++) {
-    const towards = frames ? turned([-frames[4 * k], -frames[4 * k + 1], -frames[4 * k + 2], frames[4 * k + 3]], [0, 0, 1]) : pole;
-    const seen = turned([attitudes[4 * k], attitudes[4 * k + 1], attitudes[4 * k + 2], attitudes[4 * k + 3]], towards);
+  const towards = [0, 0, 0], seen = [0, 0, 0], size = Math.hypot(...momentum) || 1;
+  inverted(-x, -y, -z, w, momentum.map(part => part / size), towards);
+  for (let k = 0, at = 0; k < count; k++, at += 4) {
+    if (frames) inverted(-frames[at], -frames[at + 1], -frames[at + 2], frames[at + 3], DOWN, towards);
+    inverted(attitudes[at], attitudes[at + 1], attitudes[at + 2], attitudes[at + 3], towards, seen);
     for (let n = 0; n < 3; n++) angles[n][k] = Math.acos(Math.max(-1, Math.min(1, seen[n]))) * 360 / TURN;
   }
   samples = { times, angles };
 }
 
-// The vector with the inverse of the rotation of a quaternion.
-function turned([x, y, z, w], [a, b, c]) {
-  const u = 2 * (b * z - c * y), v = 2 * (c * x - a * z), s = 2 * (a * y - b * x);
-  return [a + w * u + (v * z - s * y), b + w * v + (s * x - u * z), c + w * s + (u * y - v * x)];
+// Axis 3 of "lvlh" points to the primary.
+const DOWN = [0, 0, 1];
+
+// The vector turned by the inverse of a quaternion, into `out`.
+function inverted(x, y, z, w, vector, out) {
+  const [a, b, c] = vector, u = 2 * (b * z - c * y), v = 2 * (c * x - a * z), s = 2 * (a * y - b * x);
+  out[0] = a + w * u + v * z - s * y;
+  out[1] = b + w * v + s * x - u * z;
+  out[2] = c + w * s + u * y - v * x;
 }
 
 const css = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
