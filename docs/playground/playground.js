@@ -205,9 +205,9 @@ function prepared(canvas) {
   return [context, room.width, room.height];
 }
 
-const strip = { left: 38, top: 6, below: 20, picture: document.createElement("canvas") };
+const strip = { left: 38, top: 6, below: 20, right: 8 };
 function drawStrip() {
-  const canvas = element("strip"), [context, width, height] = prepared(canvas), right = width - 8, bottom = height - strip.below;
+  const canvas = element("strip"), [context, width, height] = prepared(canvas), right = width - strip.right, bottom = height - strip.below;
   const across = right - strip.left, vertical = angle => bottom - angle / 180 * (bottom - strip.top);
   context.strokeStyle = css("--line");
   for (const angle of [0, 90, 180]) {
@@ -236,9 +236,6 @@ function drawStrip() {
     }
     context.stroke();
   });
-  strip.picture.width = canvas.width;
-  strip.picture.height = canvas.height;
-  strip.picture.getContext("2d").drawImage(canvas, 0, 0);
   const what = held() ? "the direction to the primary" : "the angular momentum";
   element("strip-caption").innerHTML = `Angle between ${what} and body axis ${AXES.map((color, k) => `<b style="color: var(${color})">${k + 1}</b>`).join(", ")}`;
 }
@@ -250,13 +247,8 @@ function mark() {
   const now = element("view").contentWindow?.andoyer?.now();
   if (now === undefined || now === marked || !data) return;
   marked = now;
-  const canvas = element("strip"), context = canvas.getContext("2d"), ratio = window.devicePixelRatio || 1;
-  context.setTransform(1, 0, 0, 1, 0, 0);
-  context.clearRect(0, 0, canvas.width, canvas.height);
-  context.drawImage(strip.picture, 0, 0);
-  const x = ratio * (strip.left + (canvas.width / ratio - 8 - strip.left) * (now - data.start) / (data.stop - data.start));
-  context.fillStyle = css("--text");
-  context.fillRect(x - 1, ratio * strip.top, 2, canvas.height - ratio * (strip.top + strip.below));
+  const share = (now - data.start) / (data.stop - data.start);
+  element("moment").style.left = `calc(${strip.left}px + ${share} * (100% - ${strip.left + strip.right}px))`;
 }
 
 function drawPlane() {
