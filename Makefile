@@ -9,7 +9,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost libration-reach nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-messages gravity docs docs-test playground playground-test package release-check wheel clean kernels
+.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves libration-cost libration-reach nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-ephemeris rivals-messages gravity docs docs-test playground playground-test package release release-check wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -69,12 +69,14 @@ lint-python: $(VENV)/ready
 	$(PYTHON) tests/names.py --planted
 	$(PYTHON) benches/figures.py --check
 	$(PYTHON) tests/release.py
+	$(PYTHON) tests/release.py --planted
 
 PROGRAMS := andoyer-benches/programs,andoyer-tests/programs
 lint-rust:
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --features $(PROGRAMS) --quiet -- -D warnings
 	cargo clippy -p andoyer-propagate --no-default-features --quiet -- -D warnings
+	cargo clippy -p andoyer-propagate --no-default-features --features torques --quiet -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps --document-private-items --quiet
 
 bench: $(VENV)/installed  ## criterion by order, then run time against error: docs/data/bench.csv, docs/data/work-precision.csv; a quarter of an hour
@@ -180,6 +182,10 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 nature: $(VENV)/kernels  ## a rigid Earth and Moon at DE440 positions beside REN-2000 and DE421: docs/data/nature-*.csv and their pictures; a quarter of an hour
 	$(BIN)/python tests/nature/moon.py
 	$(BIN)/python tests/nature/moon_terms.py
+	for language in c:c rust:rs python:py javascript:js; do \
+	  cargo run --release --locked --quiet -p andoyer-series --example moon_table -- $${language%:*} < docs/data/nature-moon-terms.csv > docs/data/moon_orientation.$${language#*:} || exit 1; \
+	done
+	$(BIN)/python tests/nature/moon_rivals.py
 	$(BIN)/python tests/nature/earth.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes and of 1000 tensors against their bounds, and of 200 averaged motions against their estimate; five minutes
@@ -187,7 +193,7 @@ bounds: $(VENV)/installed  ## errors of 3000 random scenes and of 1000 tensors a
 	$(BIN)/python tests/stress/tensors.py
 	$(BIN)/python tests/stress/evolutions.py
 
-rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-driven rivals-partials rivals-messages  ## the tables of ratios, in out/ too
+rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-driven rivals-partials rivals-ephemeris rivals-messages  ## the tables of ratios, in out/ too
 
 rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine
 	$(RIVALS)/bin/python benches/rivals/normal_form.py --data docs/data/rivals-normal-form.csv
@@ -199,6 +205,7 @@ rivals-products: $(RIVALS)/normal-form  ## products of polynomials against pytho
 rivals-propagation: $(RIVALS)/propagation $(RIVALS)/installed $(RIVALS)/orekit/ready  ## propagation against heyoka, SciPy, ode_solvers and, where there is Maven, Orekit
 	RUSTFLAGS='-C target-cpu=native' cargo build --release --locked --quiet --manifest-path benches/rivals/ode_solvers/Cargo.toml --target-dir $(RIVALS)/ode_solvers
 	$(RIVALS)/bin/python benches/rivals/propagation.py --data docs/data/rivals-propagation.csv --ode-solvers $(RIVALS)/ode_solvers/release/ode-solvers-rival --orekit $(RIVALS)/orekit
+	$(RIVALS)/bin/python benches/rivals/coming_from.py
 
 rivals-gradient: $(RIVALS)/propagation $(RIVALS)/installed  ## the gravity gradient against heyoka
 	$(RIVALS)/bin/python benches/rivals/gradient.py --output docs/data/rivals-gradient.csv
@@ -214,6 +221,10 @@ rivals-driven: $(RIVALS)/propagation $(RIVALS)/installed  ## normal forms with a
 
 rivals-partials: $(RIVALS)/propagation $(RIVALS)/installed  ## derivatives against heyoka's variational equations
 	$(RIVALS)/bin/python benches/rivals/partials.py --output docs/data/rivals-partials.csv
+
+rivals-ephemeris: $(VENV)/kernels $(VENV)/tested  ## states of DE440 against SpiceyPy and jplephem
+	cargo build --release --locked --quiet -p andoyer-kernels --example states
+	$(BIN)/python benches/rivals/ephemeris.py --output docs/data/rivals-ephemeris.csv
 
 rivals-messages: $(RIVALS)/installed $(RIVALS)/orekit/ready  ## attitude ephemeris messages as we write them, read by Orekit; EXAMPLES=FOLDER: other messages, read by both
 	$(RIVALS)/bin/python -m pip install --quiet astropy
@@ -288,6 +299,9 @@ package: $(VENV)/installed  ## the sdist and a wheel from it without network, th
 	target/package-check/venv/bin/python -m pip install --quiet target/package-check/andoyer-*.whl
 	target/package-check/venv/bin/python -m andoyer.selftest
 	cargo package --quiet -p andoyer-double -p andoyer-kernels -p andoyer-series -p andoyer-propagate --target-dir $$(mktemp -d -p target/package-check crates.XXXXXX)
+
+release:  ## the notes of changes/ as the section of the version that Cargo.toml has, and the files that follow from it
+	$(PYTHON) tests/release.py --release
 
 release-check: package  ## versions, addresses and licences agree; public Rust names against the last tag, where there is one and cargo-semver-checks
 	$(PYTHON) tests/release.py

@@ -22,6 +22,7 @@ extensions = [
     "matplotlib.sphinxext.plot_directive",
     "equations",
     "cards",
+    "llms",
     "measured",
     "unbroken",
 ]

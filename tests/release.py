@@ -2,18 +2,22 @@
 
     python tests/release.py              exit status 1 and one line for each disagreement
     python tests/release.py --write      copies version and address from `workspace.package` in Cargo.toml to the other places, and the date from the changelog
+    python tests/release.py --release    puts the notes of changes/ and the section [Unreleased] together as the section of the version, with the date of today, and does --write
+    python tests/release.py --planted    the same on invented notes
     python tests/release.py --semver     compares the public Rust names with the last tag by cargo-semver-checks, which must be installed if CI is set
 
 `workspace.package` in Cargo.toml defines the version and the address (`repository`). The date of the version is that of its section in CHANGELOG.md. The README of the wheel is that of the repository with absolute links, since
 registries show it without the other files.
 """
 
+import datetime
 import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
@@ -24,6 +28,8 @@ VERSION, ADDRESS = PACKAGE["version"], PACKAGE["repository"]
 PUBLISHED = ("double", "kernels", "series", "propagate")
 PLACEHOLDER = "https://example.org/"
 PICTURES = (".png", ".svg")
+KINDS = ("Added", "Changed", "Deprecated", "Removed", "Fixed", "Security")
+NOTE = re.compile(rf"[a-z0-9]+(?:-[a-z0-9]+)*\.({'|'.join(KINDS).lower()})\.md")
 LINK = re.compile(r"\]\((?!https?:|#)([^)\s]+)\)")
 
 
@@ -55,6 +61,8 @@ def expected() -> Iterator[tuple[Path, str]]:
     released = re.search(rf"(?m)^## \[{re.escape(VERSION)}\] - (\S+)$", text("CHANGELOG.md"))
     date = f"\ndate-released: {released[1]}" if released else ""
     cited = re.sub(r"(?m)^version: .*$(\ndate-released: .*$)?", f"version: {VERSION}{date}", text("CITATION.cff"))
+    recipe = re.sub(r'(?m)^  version: ".*"$', f'  version: "{VERSION}"', text("recipe/recipe.yaml"))
+    yield ROOT / "recipe/recipe.yaml", re.sub(r"(?m)^  repository: .*$", f"  repository: {ADDRESS}", recipe)
     yield ROOT / "CITATION.cff", re.sub(r"(?m)^repository-code: .*$", f"repository-code: {ADDRESS}", cited)
     date = f'\n  "datePublished": "{released[1]}",' if released else ""
     meta = re.sub(r'"version": "[^"]*",(\n  "datePublished": "[^"]*",)?', f'"version": "{VERSION}",{date}', text("codemeta.json"))
@@ -77,6 +85,7 @@ def problems() -> Iterator[str]:
         links = LINK.findall(readme.read_text(encoding="utf-8")) if readme.exists() else []
         yield from (f"crates/{crate}/README.md: a registry has no file {link}" for link in links)
     json.loads((ROOT / "codemeta.json").read_text(encoding="utf-8"))
+    yield from wrong_notes(ROOT / "changes")
     yield from changelog((ROOT / "CHANGELOG.md").read_text(encoding="utf-8"))
 
 
@@ -99,6 +108,66 @@ def changelog(text: str) -> Iterator[str]:
         yield from (f"CHANGELOG.md: {name} stands twice in {section.splitlines()[0]}" for name in sorted(set(names)) if names.count(name) > 1)
 
 
+def notes(folder: Path) -> list[Path]:
+    """The notes of a folder by name; its README is none."""
+    return sorted(path for path in folder.iterdir() if path.name != "README.md")
+
+
+def wrong_notes(folder: Path) -> Iterator[str]:
+    """One line for each note whose name or form is wrong."""
+    for path in notes(folder):
+        if not NOTE.fullmatch(path.name):
+            yield f"changes/{path.name}: a note must be NAME.KIND.md, with small letters, digits and hyphens in NAME and one of {', '.join(KINDS).lower()} as KIND"
+        elif not re.fullmatch(r"(?:- \S.*\n(?:  \S.*\n)*)+", path.read_text(encoding="utf-8")):
+            yield f"changes/{path.name}: a note must be rows that begin with '- '; a further line of a row begins with two spaces"
+
+
+def released(text: str, folder: Path, version: str, date: str) -> str:
+    """The changelog with the section of a version: the notes of a folder by kind and name, each kind above its rows in [Unreleased]."""
+    head, rows, rest = re.split(r"(?m)^## \[Unreleased\]\n((?:(?!## ).*\n)*)", text, maxsplit=1)
+    _, *pairs = re.split(r"(?m)^### (.*)\n", rows)
+    sections = dict.fromkeys(KINDS, "") | {name: below.strip("\n") for name, below in zip(pairs[::2], pairs[1::2], strict=True)}
+    for path in reversed(notes(folder)):
+        kind = path.name.split(".")[1].capitalize()
+        sections[kind] = f"{path.read_text(encoding='utf-8')}{sections[kind]}".strip("\n")
+    body = "\n".join(f"### {name}\n\n{below}\n" for name, below in sections.items() if below)
+    return f"{head}## [Unreleased]\n\n## [{version}] - {date}\n\n{body}\n{rest}"
+
+
+def release() -> int:
+    """Write the section of the version and remove its notes."""
+    path, folder = ROOT / "CHANGELOG.md", ROOT / "changes"
+    text, found = path.read_text(encoding="utf-8"), list(wrong_notes(folder))
+    if f"## [{VERSION}]" in text:
+        found.append(f"CHANGELOG.md: has a section of {VERSION}; set another version in Cargo.toml")
+    if found:
+        print("\n".join(found), file=sys.stderr)
+        return 1
+    path.write_text(released(text, folder, VERSION, datetime.date.today().isoformat()), encoding="utf-8")
+    for note in notes(folder):
+        note.unlink()
+    return main(["--write"])
+
+
+def planted() -> int:
+    """Put invented notes together, and refuse one with a wrong name and one with a wrong form."""
+    text = "# Changelog\n\n## [Unreleased]\n\n### Added\n\n- Old.\n\n## [0.1.0] - 2026-01-01\n\n### Added\n\n- First.\n"
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for file, row in {"b.added.md": "- B.\n", "a-1.added.md": "- A,\n  in two lines.\n", "c.fixed.md": "- C.\n", "README.md": "Notes.\n"}.items():
+            (folder / file).write_text(row, encoding="utf-8")
+        good = list(wrong_notes(folder))
+        done = released(text, folder, "0.2.0", "2026-02-02")
+        for file, row in {"d.new.md": "- D.\n", "E.fixed.md": "- E.\n", "f.fixed.md": "F.\n"}.items():
+            (folder / file).write_text(row, encoding="utf-8")
+        refused = [line.split(":")[0] for line in wrong_notes(folder)]
+    section = "## [0.2.0] - 2026-02-02\n\n### Added\n\n- A,\n  in two lines.\n- B.\n- Old.\n\n### Fixed\n\n- C.\n\n"
+    expected = text.replace("### Added\n\n- Old.\n\n", section)
+    holds = done == expected and not good and refused == ["changes/E.fixed.md", "changes/d.new.md", "changes/f.fixed.md"] and not list(changelog(done))
+    print("release: planted notes are put together, wrong ones refused" if holds else f"release: planted notes are not put together:\n{done}\n{refused}")
+    return not holds
+
+
 def semver() -> int:
     """Compare the public names of the crates with those of the last tag."""
     done = subprocess.run(["git", "describe", "--tags", "--abbrev=0", "--match", "v*"], cwd=ROOT, capture_output=True, text=True)
@@ -115,6 +184,10 @@ def semver() -> int:
 def main(arguments: list[str]) -> int:
     if arguments == ["--semver"]:
         return semver()
+    if arguments == ["--release"]:
+        return release()
+    if arguments == ["--planted"]:
+        return planted()
     if arguments == ["--write"]:
         for path, text in expected():
             path.write_text(text, encoding="utf-8")

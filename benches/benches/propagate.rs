@@ -5,8 +5,8 @@ mod short;
 use std::hint::black_box;
 
 use andoyer_benches::{bodies, triaxial, wobbling};
-use andoyer_propagate::{Body, Method, Mode, Motion, Scene, SeriesTables, State};
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use andoyer_propagate::{Body, Method, Mode, Motion, Scene, State};
+use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 const ORDERS: [usize; 9] = [1, 2, 4, 8, 12, 16, 20, 30, 40];
 const EVALUATED_ORDERS: [usize; 3] = [1, 4, 40];
@@ -119,7 +119,7 @@ fn evaluate_counts(c: &mut Criterion) {
     group.finish();
 }
 
-/// Solving with tables of the series that other scenes of the body have filled, and without.
+/// Solving for a body whose tables of the series are known, and for one that has none.
 fn set_up(c: &mut Criterion) {
     let mut group = c.benchmark_group("set-up");
     let bodies = bodies();
@@ -131,29 +131,30 @@ fn set_up(c: &mut Criterion) {
     ];
     kinds.extend([8, 20, 40].map(|order| (format!("order-{order}"), "series", ordered(order))));
     for (size, engine, scenes) in &kinds {
-        let filled = |scene: &Scene| {
-            let tables = SeriesTables::default();
-            solved(scene, &tables);
-            tables
-        };
-        let tables: Vec<SeriesTables> = scenes.iter().map(filled).collect();
-        let mut next = scenes.iter().zip(&tables).cycle();
-        group.bench_function(BenchmarkId::new(format!("body-seen-{size}"), engine), |b| {
-            b.iter(|| {
-                let (scene, tables) = next.next().expect("a cycle");
-                solved(scene, tables)
-            });
-        });
+        scenes.iter().for_each(|scene| drop(solved(scene)));
         let mut next = scenes.iter().cycle();
+        group.bench_function(BenchmarkId::new(format!("body-seen-{size}"), engine), |b| {
+            b.iter(|| solved(next.next().expect("a cycle")));
+        });
+        // The tables belong to all digits of β.
+        let (mut next, mut count) = (scenes.iter().cycle(), 0);
+        let mut new_body = || {
+            count += 1;
+            let scene = next.next().expect("a cycle");
+            let [least, middle, greatest] = scene.body().moments();
+            let body = Body::new([least, middle * (1.0 + 1e-13 * f64::from(count)), greatest]).expect("a body");
+            let fresh = Scene::new(body, *scene.state()).method(scene.asked_method());
+            scene.asked_order().map_or(fresh.clone(), |order| fresh.order(order))
+        };
         group.bench_function(BenchmarkId::new(format!("body-new-{size}"), engine), |b| {
-            b.iter(|| solved(next.next().expect("a cycle"), &SeriesTables::default()));
+            b.iter_batched(&mut new_body, |scene| solved(&scene), BatchSize::SmallInput);
         });
     }
     group.finish();
 }
 
-fn solved(scene: &Scene, tables: &SeriesTables) -> Motion {
-    let motion = black_box(scene).solve_with(tables).expect("a wobble");
+fn solved(scene: &Scene) -> Motion {
+    let motion = black_box(scene).solve().expect("a wobble");
     let plan = motion.plan();
     assert!(plan.mode() == Mode::ShortAxis && (0.1..=0.3).contains(&plan.separatrix_ratio()));
     motion

@@ -301,6 +301,35 @@ def nature_moon_terms() -> list[str]:
     return markdown(["terms", 'largest angle left, 1950 to 2050 ["]'], ([str(count), terms[count - 1]["left"]] for count in range(10, len(terms) + 1, 10)))
 
 
+def nature_moon_table() -> list[str]:
+    """The table of the Moon's orientation, largest terms first in each part."""
+    header = ["angle", "period [d]", "rate [rad/s], or power", 'sine, x or longitude ["]', 'sine, y ["]', 'cosine, x or longitude ["]', 'cosine, y ["]']
+    return markdown(
+        header, ([row[name] for name in ("angle", "period_days", "rate", "sine_1", "sine_2", "cosine_1", "cosine_2")] for row in read("nature-moon-terms.csv"))
+    )
+
+
+def nature_moon_rivals() -> list[str]:
+    """Differences of three series from the orientation of DE421 on the same days."""
+    header = [
+        "series",
+        "size",
+        "axes",
+        'largest ["]',
+        'root mean square ["]',
+        'without the mean rotation: largest ["]',
+        'root mean square ["]',
+        'mean rotation about axes 1, 2, 3 ["]',
+    ]
+    return markdown(header, ([value for name, value in row.items() if name != "days"] for row in read("nature-moon-rivals.csv")))
+
+
+def rivals_ephemeris() -> list[str]:
+    """Times of states from DE440 by three readers, and how far the positions are from those of SpiceyPy."""
+    header = ["bodies", "times", "reader", "100,000 states [ms]", "ratio to ours", "largest difference of a position from SpiceyPy's, over the distance"]
+    return markdown(header, (list(row.values()) for row in read("rivals-ephemeris.csv")))
+
+
 def nature_earth() -> list[str]:
     """Terms of the nutation of a rigid Earth, published and found: the main ones over the longest span."""
     rows = read("nature-earth.csv")
@@ -323,6 +352,34 @@ def nature_nutation() -> list[str]:
     return markdown(["years", "amplitude", "terms", "median difference [µas]", "terms within 100 µas", "largest [µas]"], lines)
 
 
+TESTED = {
+    "andoyer-double": ("crates/double/tests", "*.rs"),
+    "andoyer-kernels": ("crates/kernels/tests", "*.rs"),
+    "andoyer-series": ("crates/series/tests/algebra", "*.rs"),
+    "andoyer-propagate": ("tests/tests", "*.rs"),
+    "Python": ("crates/py/tests", "test_*.py"),
+}
+
+
+def claim(text: str) -> str:
+    """The first paragraph of the header of a test file: what it verifies, and against what."""
+    header = re.match(r'(?:(?://! ?.*)\n)+|"""(?:.|\n)*?"""', text)
+    lines = [line.removeprefix("//!").strip() for line in header[0].strip('"').splitlines()] if header else []
+    return " ".join("\n".join(lines).partition("\n\n")[0].split())
+
+
+def verified() -> list[str]:
+    """What the tests verify and against what, by the header of each file, with the number of its test functions."""
+    rows = []
+    for module, (folder, pattern) in TESTED.items():
+        for path in sorted((DATA.parents[1] / folder).glob(pattern)):
+            text = path.read_text(encoding="utf-8")
+            tests = len(re.findall(r"(?m)^ *#\[test\]|^def test_", text))
+            if tests:
+                rows.append([module, claim(text).replace("|", "\\|"), f"`{path.name}`", str(tests)])
+    return markdown(["module", "what is verified, and against what", "file", "tests"], rows)
+
+
 TABLES: dict[str, Callable[[], list[str]]] = {
     "averaged-bodies": averaged_bodies,
     "ensemble": ensemble,
@@ -337,8 +394,11 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "light-curves": light_curves,
     "nature-earth": nature_earth,
     "nature-moon": nature_moon,
+    "nature-moon-rivals": nature_moon_rivals,
+    "nature-moon-table": nature_moon_table,
     "nature-moon-terms": nature_moon_terms,
     "nature-nutation": nature_nutation,
+    "rivals-ephemeris": rivals_ephemeris,
     "rivals-gradient": rivals_gradient,
     "rivals-integration": rivals_integration,
     "rivals-partials": rivals_partials,
@@ -346,6 +406,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "scenes-speed": scenes_speed,
     "sweep-accuracy": sweep_accuracy,
     "sweep-speed": sweep_speed,
+    "verified": verified,
 }
 
 
@@ -358,6 +419,8 @@ class Measured(SphinxDirective):
         name = " ".join(self.content).strip()
         if name not in TABLES:
             raise self.error(f"measured: there is no table {name!r}, only {', '.join(TABLES)}")
+        if name == "verified":
+            self.env.note_reread()
         for file in DATA.glob("*.csv"):
             self.env.note_dependency(str(file))
         container = nodes.container()

@@ -35,3 +35,25 @@ def test_numbers_and_short_cells_stay_in_one_piece():
     page = (SITE / "gravity-gradient.html").read_text(encoding="utf-8")
     assert '<span class="unbroken">1e-4</span>' in page
     assert re.search(r'<td class="unbroken"><p>[\d.]+e-\d+</p></td>', page)
+
+
+def test_llms_txt_lists_every_page_with_its_headings():
+    text = (SITE / "llms.txt").read_text(encoding="utf-8")
+    lines = dict(re.findall(r"^- \[[^\]]+\]\(([^)]+)\)(?:: (.*))?$", text, re.MULTILINE))
+    assert text.startswith("# andoyer\n\n> The attitude of rigid bodies") and "\n## Use\n" in text
+    others = {"index.html", "search.html", "genindex.html", "py-modindex.html"}
+    pages = {str(page.relative_to(SITE)) for page in PAGES if page.parent.name != "pages"}
+    assert pages - others == set(lines)
+    assert lines["start.html"].split("; ")[:2] == ["An answer", "Its error"]
+
+
+def test_the_table_of_what_is_verified_has_each_test_file_with_its_claim():
+    page = (SITE / "verified.html").read_text(encoding="utf-8")
+    rows = re.findall(r"<tr[^>]*>\s*<td.*?</tr>", page, re.DOTALL)
+    cells = [[re.sub(r"<[^>]+>", "", cell).strip() for cell in re.findall(r"<td.*?>(.*?)</td>", row, re.DOTALL)] for row in rows]
+    files = {cell[2]: cell for cell in cells}
+    root = SITE.parents[1]
+    assert {path.name for path in (root / "crates/py/tests").glob("test_*.py")} <= set(files)
+    assert {path.name for path in (root / "tests/tests").glob("*.rs")} - set(files) == {"main.rs"}
+    assert all(len(claim) > 20 and int(tests) > 0 for _, claim, _, tests in cells)
+    assert files["oracle.rs"][1] == "P_n from the energy integral (theory §5), which knows nothing of Lie transforms."

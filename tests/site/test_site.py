@@ -8,7 +8,7 @@ PAGES = sorted(str(path.relative_to(SITE)) for path in SITE.rglob("*.html") if "
 SCRIPTS = sorted((SITE.parents[1] / "examples" / "gallery").glob("plot_*.py"))
 WITH_EQUATIONS = {"theory.html": 12, "errata.html": 4}
 WITH_PICTURES = {
-    "index.html": 4,
+    "index.html": 5,
     "nature.html": 2,
     "gravity-gradient.html": 2,
     "fits.html": 2,

@@ -32,21 +32,28 @@ def torque(random: Generator, size: float, degree: int, source: object, power: i
     return andoyer.Torque.polynomial(texts, sources={"s": source}, distance_powers={"s": power} if power else None)
 
 
-def tumbler(random: Generator) -> tuple[andoyer.Body, Array, Array]:
-    """A body with C = M = 1, and a state on a random place of its polhode."""
+def moments_and_mode(random: Generator) -> tuple[Array, bool]:
+    """Sorted moments with C = 1 that differ by 0.03 or more, and whether the mode is the short-axis one."""
     while True:
         moments = np.sort(np.append(random.uniform(0.3, 1, 2), 1.0))
         if moments[0] + moments[1] > 1.02 and np.diff(moments).min() > 0.03:
-            break
-    short = bool(random.random() < 0.5)
-    alpha = 1 / moments - 1 if short else 1 - moments[0] / moments
+            return moments, bool(random.random() < 0.5)
+
+
+def rates_at(moments: Array, short: bool, share: float, sense: int) -> Array:
+    """The rates of M = 1 with the middle axis across that of the mode, for ξ/ξ_sep = share."""
     g = np.zeros(3)
-    g[1] = np.sqrt(10 ** random.uniform(-2, -0.05))
-    g[2 if short else 0] = np.sqrt(1 - g[1] ** 2) * random.choice([-1, 1])
-    assert alpha[1] > 0
+    g[1], g[2 if short else 0] = np.sqrt(share), sense * np.sqrt(1 - share)
+    return g / moments
+
+
+def tumbler(random: Generator) -> tuple[andoyer.Body, Array, Array]:
+    """A body with C = M = 1, and a state on a random place of its polhode."""
+    moments, short = moments_and_mode(random)
+    rates = rates_at(moments, short, 10 ** random.uniform(-2, -0.05), random.choice([-1, 1]))
     attitude = random.normal(size=4)
     body = andoyer.Body(moments)
-    state = andoyer.Scene(body, attitude / np.linalg.norm(attitude), g / moments).solve().at(random.uniform(0, 1000))
+    state = andoyer.Scene(body, attitude / np.linalg.norm(attitude), rates).solve().at(random.uniform(0, 1000))
     return body, state.attitude, state.angular_velocity
 
 

@@ -1,6 +1,8 @@
 //! Many bodies at once: the same bits as one by one, or the same but for rounding if they are integrated, for any number of threads; bad members are named.
 
-use andoyer_propagate::ensemble::MAX_THREADS;
+use std::sync::atomic::AtomicBool;
+
+use andoyer_propagate::ensemble::{MAX_THREADS, OnError};
 use andoyer_propagate::{Body, Ensemble, Error, Method, Orbit, Scene, State};
 
 const MEMBERS: usize = 500;
@@ -180,7 +182,9 @@ fn motions_under_a_torque_are_kept_and_not_those_of_other_options() {
     let ensemble = Ensemble::new(vec![[1.0, 1.02, 1.05]; 3], vec![[0.0, 0.0, 0.0, 1.0]; 3], rates).expect("members");
     let ensemble = ensemble.orbits(vec![Some(sun), None, Some(sun)]).expect("orbits").span(0.0, 1e3).tolerance(1e-6);
     let plans = |ensemble: &Ensemble| ensemble.plans().expect("plans");
-    let keeps = |ensemble: &Ensemble, count: usize| format!("{ensemble:?}").contains(&format!("kept: {count} motions"));
+    let keeps = |ensemble: &Ensemble, count: usize| {
+        format!("{ensemble:?}").contains(&format!("kept: KeptMotions({count} results"))
+    };
     let first = plans(&ensemble);
     // Those under a torque, once for all copies.
     assert!(keeps(&ensemble, 2) && keeps(&ensemble.clone().threads(1), 2), "{ensemble:?}");
@@ -229,4 +233,38 @@ fn integrated_members_are_their_scenes_but_for_rounding_and_do_not_depend_on_the
             assert!(apart <= motion.plan().error_bound() + alone.plan().error_bound(), "{k} {time}: {apart:e}");
         }
     }
+}
+
+#[test]
+fn members_of_which_nothing_is_known_at_the_end_are_served_up_to_there() {
+    // Tumbling in a plane that is chaotic: a Lyapunov time is about an orbit, 2π.
+    let (moments, level) = (vec![[0.5, 0.8, 1.0]; 2], vec![LEVEL; 2]);
+    let rates = vec![[0.01, 0.02, 1.0], [0.05, -0.03, 1.1]];
+    let ensemble = Ensemble::new_or(moments, level, rates, OnError::Nan, &AtomicBool::new(false)).expect("members");
+    let ensemble = ensemble.method(Method::Integrated).orbits(vec![Some(Orbit::new(1.0, 0.1).expect("an orbit"))]);
+    let chaotic = ensemble.expect("an orbit for all").tolerance(1e-8).span(-20.0, 2000.0);
+    let plans = chaotic.plans().expect("plans");
+    let known = plans.iter().map(|plan| plan.known().expect("less than the span")).collect::<Vec<_>>();
+    assert!(known.iter().all(|[first, last]| *first == -20.0 && 50.0 < *last && *last < 1000.0), "{known:?}");
+    assert!(plans[0].error_bound() > 0.01 && plans[0].to_string().contains("nothing is known beyond"), "{}", plans[0]);
+
+    let times = [-20.0, 10.0, 50.0, known[0][1], known[0][1] + 1e-6, 2000.0];
+    let mut attitudes = [[0.0; 4]; 12];
+    let outcome = chaotic.attitudes_into(&times, &mut attitudes).expect("NaN where nothing is known");
+    assert_eq!(outcome.errors().iter().map(|(index, _)| *index).collect::<Vec<_>>(), [0, 1]);
+    assert!(outcome.errors()[0].1.to_string().contains("nearby states separate"), "{}", outcome.errors()[0].1);
+    let said = outcome.missed_tolerance().expect("all miss the tolerance");
+    assert!(said.contains("; of 2 nothing is known at the ends of their spans"), "{said}");
+    assert!(attitudes[..4].iter().all(|row| row[3].is_finite()) && attitudes[4..6].iter().all(|row| row[3].is_nan()));
+    // The motion before is that of a shorter span.
+    let shorter = chaotic.clone().span(-20.0, 50.0);
+    let mut of_shorter = [[0.0; 4]; 6];
+    shorter.attitudes_into(&times[..3], &mut of_shorter).expect("known");
+    let apart = |one: &[f64; 4], other: &[f64; 4]| (0..4).map(|k| (one[k] - other[k]).abs()).fold(0.0, f64::max);
+    assert!(attitudes[..3].iter().zip(&of_shorter).all(|(one, other)| apart(one, other) < 1e-8));
+
+    let raised = Ensemble::from_scenes(vec![chaotic.scene(0)], OnError::Raise).expect("a scene");
+    let error = raised.attitudes_into(&[10.0], &mut [[0.0; 4]]).expect_err("not the whole span");
+    let Error::Member { problem, .. } = &error else { panic!("{error}") };
+    assert!(matches!(**problem, Error::Unpredictable { known: [-20.0, last], .. } if last > 50.0), "{error}");
 }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use andoyer_propagate::ensemble::OnError;
 use andoyer_propagate::torques::Torque;
-use andoyer_propagate::{Body, Ensemble, Error, Method, Motion, Orbit, Scene, SeriesTables, State, TabulatedOrbit};
+use andoyer_propagate::{Body, Ensemble, Error, Method, Motion, Orbit, Scene, State, TabulatedOrbit};
 
 fn scene(epoch: f64) -> Scene {
     let state = State::new(epoch, [0.0, 0.0, 0.0, 1.0], [0.0, 0.01, 1.0]).expect("a state");
@@ -62,8 +62,8 @@ fn integrations_of_milliseconds_are_brief() {
 #[test]
 fn flag_that_is_set_from_the_start_ends_integrations_alone() {
     let orbit = |motion: f64| Orbit::new(motion, 0.1).expect("an orbit");
-    let (stop, tables) = (AtomicBool::new(true), SeriesTables::default());
-    let solved = |scene: &Scene| scene.solve_until(&tables, &stop);
+    let stop = AtomicBool::new(true);
+    let solved = |scene: &Scene| scene.solve_until(&stop);
     let by_theory = scene(0.0).orbit(orbit(2e-3)).tolerance(1e-6).span(0.0, 1e3);
     for scene in [scene(0.0), by_theory.clone()] {
         let (early, usual) = (solved(&scene).expect("theory"), scene.solve().expect("a motion"));

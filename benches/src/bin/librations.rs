@@ -6,7 +6,7 @@
 #![expect(clippy::print_stdout, reason = "a command that prints what it measures")]
 
 use andoyer_benches::locked;
-use andoyer_propagate::{Method, Motion, SeriesTables};
+use andoyer_propagate::{Method, Motion};
 
 const SAMPLES: u32 = 2_000;
 /// A short measurement is repeated for so long.
@@ -53,9 +53,8 @@ fn main() {
     };
     let scene = locked(eccentricity, degrees).order(order as usize);
     let before = status("VmRSS");
-    let tables = SeriesTables::default();
     let start = seconds();
-    let solved = scene.solve_with(&tables);
+    let solved = scene.solve();
     let first = seconds() - start;
     let motion = match solved {
         Ok(motion) => motion,
@@ -66,7 +65,7 @@ fn main() {
     };
     let (kept, peak) = (status("VmRSS") - before, status("VmHWM"));
     let state = locked(eccentricity, 0.97 * degrees).order(order as usize);
-    let (next, _) = timed(|| state.solve_with(&tables));
+    let (next, _) = timed(|| state.solve());
     let (_, stop) = scene.asked_span().unwrap_or_default();
     let times: Vec<f64> = (0..SAMPLES).map(|k| stop * f64::from(k) / f64::from(SAMPLES)).collect();
     let (mut attitudes, mut rates) = (vec![[0.0; 4]; times.len()], vec![[0.0; 3]; times.len()]);

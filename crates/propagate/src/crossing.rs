@@ -15,7 +15,6 @@ use crate::evolution::weakness::EndReason;
 use crate::input::options::{Convention, Method};
 use crate::input::scene::Scene;
 use crate::observed::periods::ObservedPeriods;
-use crate::torque_free::series::tables::SeriesTables;
 
 /// Members start at least so many wobbles before the separatrix, where 1 − ξ/ξ_sep is at least the second number.
 const BEFORE: f64 = 20.0;
@@ -143,7 +142,7 @@ impl Evolution {
             let epoch = scene.state().epoch;
             let until = epoch + left;
             let solved = scene.clone().method(Method::Integrated).tolerance(tolerance);
-            let motion = solved.span(epoch.min(until), epoch.max(until)).solve_until(&SeriesTables::default(), stop)?;
+            let motion = solved.span(epoch.min(until), epoch.max(until)).solve_until(stop)?;
             scene = scene.with_state(*motion.scene_at(until)?.state());
             if let Some((family, part)) = family_of(&scene) {
                 nearest = 1.0 - part;

@@ -5,11 +5,12 @@
 //! Units: none is built in; time, moments and angular velocity in any consistent set, angles in radians. An attitude is the rotation of body
 //! components into inertial ones. The theory is M. Lara, "Short-axis-mode rotation in complex variables" (2017).
 //!
-//! The feature `torques`, which is on by default, has motions under a torque: the averaged theory, integration, libration, and [`Motion::verify`]. Without it a free
-//! motion is built alone, and a scene with a torque is [`Error::NotBuilt`].
+//! The features are on by default. `torques` has motions under a torque: the averaged theory, integration, libration, and [`Motion::verify`]; without it a free
+//! motion is built alone, and a scene with a torque is [`Error::NotBuilt`]. `scene-files` has scenes as TOML texts, `spice` kernels.
 #![doc = include_str!("../doc/formulas.html")]
 // What only motions under a torque use is dead without them.
 #![cfg_attr(not(feature = "torques"), allow(dead_code))]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 // The layers, each of which imports only those above it: tests/layers.py holds them to it. Empty lines keep rustfmt from sorting them.
 pub mod error;
@@ -54,6 +55,7 @@ pub mod partials;
 
 pub mod motion_code;
 
+#[cfg(feature = "spice")]
 pub mod spice;
 
 pub mod orbital;
@@ -63,6 +65,7 @@ mod observed;
 #[cfg(feature = "torques")]
 mod crossing;
 
+#[cfg(feature = "scene-files")]
 mod scene_file;
 
 mod outcome;
@@ -80,7 +83,6 @@ pub use motion::solved::{Motion, Sample};
 pub use orbit::elements::Orbit;
 pub use orbit::table::TabulatedOrbit;
 pub use torque_free::mode::Mode;
-pub use torque_free::series::tables::SeriesTables;
 
 pub mod options {
     //! How a scene is solved, and what its periods belong to.

@@ -17,6 +17,8 @@ struct Missed {
 pub struct Outcome {
     solved: usize,
     missing: usize,
+    /// Members of which nothing is known at the end of their spans.
+    lost: usize,
     worst: Option<Missed>,
     errors: Vec<(usize, Error)>,
 }
@@ -46,8 +48,12 @@ impl Outcome {
     pub fn missed_tolerance(&self) -> Option<String> {
         let Missed { member, bound, tolerance, over } = self.worst?;
         let said = missed(bound, tolerance, over);
+        let lost = match self.lost {
+            0 => String::new(),
+            lost => format!("; of {lost} nothing is known at the ends of their spans, and these times are NaN"),
+        };
         Some(format!(
-            "{} of {} members miss the tolerance, the worst is member {member}: {said}",
+            "{} of {} members miss the tolerance, the worst is member {member}: {said}{lost}",
             self.missing, self.solved
         ))
     }
@@ -55,6 +61,7 @@ impl Outcome {
     /// With a member that was solved.
     pub(crate) fn solved(mut self, member: usize, plan: &Plan) -> Self {
         self.solved += 1;
+        self.lost += usize::from(plan.known().is_some());
         if !plan.meets_tolerance() {
             self.missing += 1;
             let (bound, tolerance, over) = (plan.error_bound, plan.tolerance, plan.over());
@@ -73,6 +80,7 @@ impl Outcome {
     pub(crate) fn and(mut self, later: Self) -> Self {
         self.solved += later.solved;
         self.missing += later.missing;
+        self.lost += later.lost;
         self.worst = worse(self.worst, later.worst);
         self.errors.extend(later.errors);
         self

@@ -3,10 +3,10 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::error::Error;
+use crate::input::options::Served;
 use crate::input::scene::Scene;
 use crate::motion::solved::{Given, Motion};
 use crate::simd::halt::GOING;
-use crate::torque_free::series::tables::SeriesTables;
 
 #[cfg(feature = "torques")]
 mod averaged;
@@ -43,38 +43,18 @@ impl Scene {
     ///   beside the gravity gradient with another method.
     /// - [`Error::TooManySteps`], [`Error::Unpredictable`] where the integration takes too many steps, or nothing is known at its end; [`Error::TableSpan`].
     pub fn solve(&self) -> Result<Motion, Error> {
-        self.solve_until(&SeriesTables::default(), &GOING)
+        self.solve_until(&GOING)
     }
 
-    /// The motion of [`Scene::solve`], to the same bits, with tables of the series that later scenes of the same body use: a second solution by the series costs a
-    /// fraction of the first.
-    ///
-    /// # Errors
-    /// As [`Scene::solve`].
-    ///
-    /// ```
-    /// use andoyer_propagate::{Body, Method, Scene, SeriesTables, State};
-    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?;
-    /// let scene = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).method(Method::Series);
-    /// let tables = SeriesTables::default();
-    /// for tolerance in [1e-12, 1e-6] {
-    ///     assert!(scene.clone().tolerance(tolerance).solve_with(&tables)?.plan().error_bound() <= tolerance);
-    /// }
-    /// # Ok::<(), andoyer_propagate::Error>(())
-    /// ```
-    pub fn solve_with(&self, tables: &SeriesTables) -> Result<Motion, Error> {
-        self.solve_until(tables, &GOING)
-    }
-
-    /// As [`Scene::solve_with`], and ends early, with [`Error::Stopped`], once another thread has set the flag: an integration may take seconds. A flag that is
+    /// As [`Scene::solve`], and ends early, with [`Error::Stopped`], once another thread has set the flag: an integration may take seconds. A flag that is
     /// set from the start ends an integration before its first step; a motion that needs none is returned.
     ///
     /// # Errors
     /// As [`Scene::solve`], and [`Error::Stopped`].
-    pub fn solve_until(&self, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
+    pub fn solve_until(&self, stop: &AtomicBool) -> Result<Motion, Error> {
         let scene = self.validated()?;
-        let Some(turn) = scene.body().turn() else { return choose::motion(scene, tables, stop) };
-        let mut motion = choose::motion(scene.about_principal_axes(turn), tables, stop)?;
+        let Some(turn) = scene.body().turn() else { return choose::motion(scene, stop) };
+        let mut motion = choose::motion(scene.about_principal_axes(turn), stop)?;
         motion.given = Some(Box::new(Given { scene, turn }));
         Ok(motion)
     }
@@ -87,8 +67,12 @@ impl Scene {
     }
 }
 
-/// The motions of several scenes, each as [`Scene::solve`] has it but for rounding: those that are integrated are integrated together.
-pub(crate) fn disturbed(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> Vec<Result<Motion, Error>> {
+/// The motions of several scenes, each as [`Scene::solve`] has it but for rounding: those that are integrated are integrated together, over as much of their spans as is asked for.
+pub(crate) fn disturbed(
+    scenes: Vec<Result<Scene, Error>>,
+    served: Served,
+    stop: &AtomicBool,
+) -> Vec<Result<Motion, Error>> {
     let mut given = Vec::with_capacity(scenes.len());
     let about_own_axes = |scene: Result<Scene, Error>| {
         let (scene, own) = match scene.and_then(|scene| scene.about_own_axes()) {
@@ -98,6 +82,6 @@ pub(crate) fn disturbed(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) ->
         given.push(own);
         scene
     };
-    let motions = choose::motions(scenes.into_iter().map(about_own_axes).collect(), stop);
+    let motions = choose::motions(scenes.into_iter().map(about_own_axes).collect(), served, stop);
     motions.into_iter().zip(given).map(|(motion, given)| motion.map(|motion| Motion { given, ..motion })).collect()
 }

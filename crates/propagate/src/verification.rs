@@ -11,6 +11,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::input::gravity::Gravity;
 use crate::input::options::Method;
 use crate::input::principal_axes::NEXT_AXES;
 use crate::input::scene::Scene;
@@ -21,7 +22,6 @@ use crate::orbit::disturbing_body::DisturbingBody;
 use crate::simd::halt::GOING;
 use crate::torque_free::error_budget::DEFAULT_ROTATIONS;
 use crate::torque_free::mode::Mode;
-use crate::torque_free::series::tables::SeriesTables;
 
 /// Default tolerance of the integration, relative to the error bound of a motion by theory.
 const WELL_BELOW: f64 = 0.01;
@@ -168,7 +168,7 @@ impl Motion {
             return Err(Error::Samples { value: samples, least, most });
         }
         let span = self.verified_span(options.span)?;
-        let reference = self.independent(span, options.tolerance)?.solve_until(&SeriesTables::default(), stop)?;
+        let reference = self.independent(span, options.tolerance)?.solve_until(stop)?;
         let last = samples - 1;
         let time = |k: usize| if k == last { span.1 } else { span.0 + (span.1 - span.0) * (k as f64 / last as f64) };
         let times: Vec<f64> = (0..samples).map(time).collect();
@@ -200,7 +200,7 @@ impl Motion {
         };
         let torques: Vec<_> = given.asked_torques().iter().map(|torque| torque.turned(&NEXT_AXES)).collect();
         let mut scene = given.starting_from(given.body().about_next_axes()?, state).torques(torques);
-        if given.body().is_sphere() && given.body().gravity().is_none() {
+        if given.body().is_sphere() && !given.body().gravity().is_some_and(Gravity::acts) {
             // No body exerts a torque on a homogeneous sphere, and a table need not reach over the span.
             scene = scene.disturbing(Vec::<DisturbingBody>::new());
         }

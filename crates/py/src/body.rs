@@ -1,6 +1,5 @@
 //! `andoyer.Body`.
 
-use andoyer_propagate::SeriesTables;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -39,13 +38,11 @@ type Reduced<'py, 'a> = (Bound<'py, PyAny>, (Rows, Option<&'a str>, bool, Option
 #[pyclass(frozen, eq, module = "andoyer")]
 pub(crate) struct Body {
     pub(crate) body: andoyer_propagate::Body,
-    /// The tables of the perturbation series that all scenes of this body share.
-    pub(crate) tables: SeriesTables,
 }
 
 impl From<andoyer_propagate::Body> for Body {
     fn from(body: andoyer_propagate::Body) -> Self {
-        Self { body, tables: SeriesTables::default() }
+        Self { body }
     }
 }
 

@@ -1,7 +1,6 @@
 //! `TabulatedOrbit.from_spk`, and the reader of orientations that `andoyer.output.read_pck` calls.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use andoyer_propagate::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use andoyer_propagate::spice::{Ephemeris, EphemerisError, OrbitRequest, Orientations, ReadError, frames};
@@ -141,6 +140,11 @@ impl TabulatedOrbit {
     /// TabulatedOrbit
     ///     In km, seconds and km³/s².
     ///
+    /// Warns
+    /// -----
+    /// UserWarning
+    ///     A `gm` in other units, as for `TabulatedOrbit`.
+    ///
     /// Raises
     /// ------
     /// FileError
@@ -183,7 +187,7 @@ impl TabulatedOrbit {
             let ephemeris = Ephemeris::open(&files)?;
             andoyer_propagate::TabulatedOrbit::from_ephemeris(&ephemeris, &request)
         })?;
-        Ok(Self(Arc::new(table)))
+        Self::warned(class.py(), table)
     }
 }
 

@@ -39,7 +39,7 @@ create_exception!(
     andoyer,
     ToleranceWarning,
     PyUserWarning,
-    "The error bound of a motion, or of members of an ensemble, exceeds the tolerance over the span."
+    "The error bound of a motion, or of members of an ensemble, exceeds the tolerance over the span, or that of an evolution a tenth of its angular momentum."
 );
 
 /// Issues a `ToleranceWarning` with this text, if there is one, at the line of the caller.

@@ -73,6 +73,11 @@ impl Scene {
     /// InputError
     ///     No span; rotors; a polynomial with the directions or distances of two sources in one term; a table that does not reach the span.
     ///
+    /// Warns
+    /// -----
+    /// ToleranceWarning
+    ///     The polynomials of shapes leave out so much of the torque that the angular momentum may be wrong by a tenth of its size. `Evolution.plan` warns of its whole error bound.
+    ///
     /// Examples
     /// --------
     /// A damping in proportion to the inertia: the momentum decays and the wobble stays.
@@ -124,6 +129,7 @@ impl Scene {
         if let Some(progress) = progress {
             progress.call1(py, (100, 100))?;
         }
+        error::warn_of_tolerance(py, evolution.large_error())?;
         Ok(Evolution { evolution, calendar: self.calendar })
     }
 }
@@ -333,10 +339,12 @@ impl Evolution {
         Ok(EvolutionEnd(self.evolution.end(), self.evolution.spread().map_err(error::propagation)?))
     }
 
-    /// What is known of its error; each call integrates the full equations over thirty rotations.
+    /// What is known of its error; each call integrates the full equations over thirty rotations. A `ToleranceWarning` names an error bound above a tenth of the angular momentum.
     #[getter]
     fn plan(&self, py: Python<'_>) -> PyResult<EvolutionPlan> {
-        detached(py, exception, || calling(|| self.evolution.plan())).map(EvolutionPlan)
+        let plan = detached(py, exception, || calling(|| self.evolution.plan()))?;
+        error::warn_of_tolerance(py, plan.large_error())?;
+        Ok(EvolutionPlan(plan))
     }
 
     /// The ends of the members that `evolve` was asked for: the same momentum and energy at the epoch with evenly spread phases.
@@ -430,6 +438,12 @@ impl EvolutionPlan {
     #[getter]
     fn error_bound(&self) -> f64 {
         self.0.error_bound
+    }
+
+    /// The text of the `ToleranceWarning` if the error bound is above a tenth, otherwise None.
+    #[getter]
+    fn large_error(&self) -> Option<String> {
+        self.0.large_error()
     }
 
     /// What the polynomials of shapes leave out, relative to the torque.

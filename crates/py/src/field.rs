@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use andoyer_propagate::TabulatedOrbit as Table;
 use andoyer_propagate::torques::{DipoleField, SourcePath};
+use andoyer_propagate::{Error, TabulatedOrbit as Table};
 use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -113,6 +113,14 @@ impl Field {
     fn table(_class: &Bound<'_, PyType>, times: &Bound<'_, PyAny>, vectors: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (seconds, _) = foreign::epochs("times", times)?;
         let table = Table::new(numbers_of("times", &seconds)?, self::vectors("vectors", vectors)?, 1.0);
+        // What a table of places calls positions.
+        let table = table.map_err(|problem| match problem {
+            Error::Length { found, expected, .. } => Error::Length { argument: "vectors", found, expected },
+            Error::Table { argument: "positions", index, value, .. } => {
+                Error::Table { argument: "vectors", index, value, bound: "finite and not 0" }
+            }
+            other => other,
+        });
         Ok(Self(FieldPath::Table(Arc::new(table.map_err(error::propagation)?))))
     }
 

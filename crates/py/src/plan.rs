@@ -56,6 +56,12 @@ impl Plan {
         self.0.steps()
     }
 
+    /// The first and the last time at which something is known of the attitude, of a member of an ensemble with ``errors="nan"`` that is not served over its whole span; otherwise None.
+    #[getter]
+    fn known(&self) -> Option<(f64, f64)> {
+        self.0.known().map(Into::into)
+    }
+
     /// The number of harmonics of a libration; otherwise the highest multiple of the anomaly ℓ′ in the evaluation, or 0 if the method has no harmonics.
     #[getter]
     fn harmonics(&self) -> usize {

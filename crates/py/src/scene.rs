@@ -93,7 +93,7 @@ impl Scene {
             scene = scene.source(source);
         }
         scene.validate().map_err(error::propagation)?;
-        Ok(Self { scene, tables: body.tables.clone(), calendar })
+        Ok(Self { scene, calendar })
     }
 
     /// The scene of a torque-free body that tumbles with these periods (theory §7). In each mode there is one such motion.
@@ -370,7 +370,7 @@ impl Scene {
     /// The body.
     #[getter]
     fn body(&self) -> Body {
-        Body { body: self.scene.body().clone(), tables: self.tables.clone() }
+        Body { body: self.scene.body().clone() }
     }
 
     /// The attitude at the epoch: unit quaternion [x, y, z, w], normalized, a read-only array of shape (4,).
@@ -488,7 +488,7 @@ impl Scene {
     pub(crate) fn solved(&self, py: Python<'_>) -> PyResult<andoyer_propagate::Motion> {
         if !self.scene.needs_integration() {
             // Theory takes less time than a thread needs to start. A flag that is set from the start ends an integration before its first step.
-            let by_theory = || match self.scene.solve_until(&self.tables, &AtomicBool::new(true)) {
+            let by_theory = || match self.scene.solve_until(&AtomicBool::new(true)) {
                 Err(Error::Stopped) => Ok(None),
                 solved => solved.map(Some),
             };
@@ -496,7 +496,7 @@ impl Scene {
                 return Ok(motion);
             }
         }
-        interruptible(py, !self.scene.is_brief(), error::propagation, |stop| self.scene.solve_until(&self.tables, stop))
+        interruptible(py, !self.scene.is_brief(), error::propagation, |stop| self.scene.solve_until(stop))
     }
 
     /// The keyword arguments that make this scene.

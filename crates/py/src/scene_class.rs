@@ -1,6 +1,5 @@
 //! The class `Scene`. Its methods are in [`crate::scene`], because `Scene.solve` returns a `Motion` and `Motion.scene` returns a `Scene`.
 
-use andoyer_propagate::SeriesTables;
 use pyo3::prelude::*;
 
 use crate::foreign::Calendar;
@@ -77,15 +76,13 @@ use crate::foreign::Calendar;
 #[pyclass(frozen, eq, module = "andoyer")]
 pub(crate) struct Scene {
     pub(crate) scene: andoyer_propagate::Scene,
-    /// The tables of its body.
-    pub(crate) tables: SeriesTables,
     /// The epoch, if it was given as a calendar time.
     pub(crate) calendar: Option<Calendar>,
 }
 
 impl From<andoyer_propagate::Scene> for Scene {
     fn from(scene: andoyer_propagate::Scene) -> Self {
-        Self { scene, tables: SeriesTables::default(), calendar: None }
+        Self { scene, calendar: None }
     }
 }
 

@@ -1,8 +1,10 @@
 //! `andoyer.TabulatedOrbit`.
 
+use std::ffi::CString;
 use std::sync::Arc;
 
 use numpy::{PyArray1, PyArrayDyn};
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -29,6 +31,11 @@ use crate::values::immutable;
 /// velocities : array_like, shape (n, 3), optional
 ///     Velocities of the disturbing body relative to the rotating body, in inertial components. Rows of 240 s of a low orbit give the attitude of a satellite over a day to 1e-12 rad with them, to 1e-7 without.
 ///
+/// Warns
+/// -----
+/// UserWarning
+///     Positions, times and `gm` that seem to have different units: r² × acceleration is some 1e9 times `gm`, or 1e-9 of it.
+///
 /// Raises
 /// ------
 /// InputError
@@ -51,11 +58,22 @@ pub(crate) struct TabulatedOrbit(pub(crate) Arc<andoyer_propagate::TabulatedOrbi
 
 immutable!(TabulatedOrbit);
 
+impl TabulatedOrbit {
+    /// A table, with a warning if its units seem to differ.
+    pub(crate) fn warned(py: Python<'_>, table: andoyer_propagate::TabulatedOrbit) -> PyResult<Self> {
+        if let Some(said) = table.doubtful_units() {
+            PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(said)?, 1)?;
+        }
+        Ok(Self(Arc::new(table)))
+    }
+}
+
 #[pymethods]
 impl TabulatedOrbit {
     #[new]
     #[pyo3(signature = (times, positions, gm, *, velocities=None))]
     fn new(
+        py: Python<'_>,
         times: &Bound<'_, PyAny>,
         positions: &Bound<'_, PyAny>,
         gm: &Bound<'_, PyAny>,
@@ -71,7 +89,7 @@ impl TabulatedOrbit {
             }
             None => andoyer_propagate::TabulatedOrbit::new(times, positions, gm),
         };
-        Ok(Self(Arc::new(table.map_err(error::propagation)?)))
+        Self::warned(py, table.map_err(error::propagation)?)
     }
 
     /// The times, a read-only array of shape (n,).

@@ -2,6 +2,7 @@
 
 import ast
 import builtins
+import inspect
 import re
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from conftest import REPOSITORY
 
 import andoyer
+from andoyer import plot
 from andoyer.cli import COLUMNS, main
 
 TEXT = (REPOSITORY / "docs/scene.md").read_text(encoding="utf-8")
@@ -129,6 +131,39 @@ def test_errors_that_the_pages_name_exist_and_are_raised_for_what_they_say():
     moon = andoyer.Scene(andoyer.Body.named("moon"), [0, 0, 0, 1], [0, 0, 1], orbit=andoyer.Orbit(1.0, 0.0554))
     with pytest.raises(andoyer.TheoryError):
         moon.solve()
+
+
+def test_cards_of_the_front_page_are_of_equal_length():
+    text = (REPOSITORY / "docs/index.md").read_text(encoding="utf-8")
+    cards = [re.sub(r"\]\([^)]*\)|[\[*]", "", card) for card in re.findall(r"\{container\} card\n!\[.*\n\n(.*)\n::::\n", text)]
+    assert len(cards) == 4 and max(map(len, cards)) <= 1.1 * min(map(len, cards)), [len(card) for card in cards]
+
+
+def missing(text):
+    """Names and keyword arguments of a card of calls that the package does not have."""
+    for name, arguments in re.findall(
+        r"(?<![\w.=])([A-Z]\w+(?:\.\w+)*|(?:fit|interop|output|plot)\.[\w.]+|[a-z]\w+(?=\())(?:\(([^`]*))?", "\n".join(re.findall(r"`[^`]+`", text))
+    ):
+        holder = andoyer
+        for part in name.split("."):
+            holder = plot if part == "plot" else getattr(holder, part, None)
+        if holder is None:
+            yield name
+        elif arguments:
+            known = inspect.signature(holder).parameters
+            yield from (f"{name}({key}=)" for key in re.findall(r"(\w+)=…", re.sub(r"[A-Z]\w+\(.*?\)", "", arguments)) if key not in known)
+
+
+def test_card_of_calls_has_no_name_that_the_package_does_not_have():
+    text = (REPOSITORY / "docs/calls.md").read_text(encoding="utf-8")
+    table = "\n".join(line for line in text.splitlines() if line.startswith("| `"))
+    assert table.count("`") > 150 and list(missing(table)) == []
+    assert list(missing("`Scene.solv()`, `Scene(body, tolerances=…)`, `plot.sumary(motion)`, `Motion.at`, `normalise(h)`")) == [
+        "Scene.solv",
+        "Scene(tolerances=)",
+        "plot.sumary",
+        "normalise",
+    ]
 
 
 def test_troubleshooting_names_every_error_of_the_crates():

@@ -155,3 +155,63 @@ def test_a_satellite_with_equal_sides_has_no_drift_over_an_orbit():
     scene = Scene(Body(MOMENTS), *start, torques=[torque])
     within, over = scene.drift(average="spin"), scene.drift(average="orbit")
     assert np.linalg.norm(over.momentum) < 1e-14 * np.linalg.norm(within.momentum)
+
+
+def octahedron(a, b, c):
+    """Corners and sides, counter-clockwise from outside."""
+    corners = [[a, 0, 0], [-a, 0, 0], [0, b, 0], [0, -b, 0], [0, 0, c], [0, 0, -c]]
+    return corners, [[i, j, k] if (i + j + k) % 2 == 0 else [j, i, k] for i in (0, 1) for j in (2, 3) for k in (4, 5)]
+
+
+@pytest.mark.parametrize("axis", [0, 2])
+def test_a_body_with_three_planes_of_symmetry_has_no_yorp(axis):
+    # Light makes it precess, no more; a sphere has no torque.
+    orbit = Orbit(2e-7, 0.2, inclination=0.4, node=0.3)
+    momentum = np.array([0.3, -0.4, 0.85])
+    light = Torque.from_facets(*octahedron(1.3, 1.1, 0.9), specular=0.2, diffuse=0.1, pressure=1e-4, source=orbit)
+    scene = Scene(Body(MOMENTS), *state(axis, 1, 0.2 * separatrix(axis), momentum), torques=[light])
+    drift = scene.drift(average="orbit")
+    size = np.linalg.norm(drift.momentum)
+    assert size > 1e-7
+    assert abs(drift.momentum @ momentum) < 1e-13 * size
+    assert abs(drift.obliquity) < 1e-13 * size
+    assert abs(drift.excess) < 1e-13 * size
+    ball = Torque.from_facets(*octahedron(1, 1, 1), specular=0.2, diffuse=0.1, pressure=1e-4, source=orbit)
+    assert np.abs(ball.value([[0.3, 0.5, -0.8], [1, 2, 3]])).max() < 1e-17
+
+
+def test_absorbed_light_on_a_closed_body_has_no_drift_over_an_orbit():
+    # What is absorbed and not radiated pushes along −u: the torque is odd in u.
+    corners = np.array([[1.2, 1, 1], [1, -1.1, -1], [-1, 1, -1.3], [-1, -0.8, 1.5]])
+    sides = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]
+    start = state(2, 1, 0.2 * separatrix(2), np.array([0.3, -0.4, 0.85]))
+    rates = []
+    for emission in (0.0, 1.0):
+        light = Torque.from_facets(corners - corners.mean(axis=0), sides, emission=emission, pressure=1e-4, source=Orbit(2e-7, 0.2))
+        rates.append(np.linalg.norm(Scene(Body(MOMENTS), *start, torques=[light]).drift(average="orbit").momentum))
+    assert rates[0] < 1e-13 * rates[1]
+
+
+def test_a_law_of_sublimation_is_a_sum_of_powers():
+    # The recipe of docs/evolution.md with the default law of JPL for comets, against the mean of the law itself over places of equal times.
+    orbit = Orbit(2e-7, 0.641, inclination=0.4, semi_major_axis=3.463)
+    least, most = 3.463 * 0.359, 3.463 * 1.641
+    powers, r = np.arange(2, 9), np.linspace(least, most, 200)
+
+    def law(r):
+        return 0.111262 * (r / 2.808) ** -2.15 * (1 + (r / 2.808) ** 5.093) ** -4.6142
+
+    def jet(u):
+        return 1e-7 * np.maximum(0, u @ [0.6, 0.0, 0.8])[:, None] * [0.2, 0.3, -0.1]
+
+    factors = np.linalg.lstsq((least / r[:, None]) ** powers, law(r), rcond=None)[0]
+    torques = [Torque.sphere(lambda u, c=c: c * jet(u), source=orbit, at=least, power=float(p), degree=4) for p, c in zip(powers, factors)]
+    start = state(2, 1, 0.2 * separatrix(2), np.array([0.3, -0.4, 0.85]))
+    found = Scene(Body(MOMENTS), *start, torques=torques).drift(average="orbit")
+    alone = Torque.sphere(jet, source=orbit, power=0.0, degree=4)
+    rates = []
+    for epoch in 2 * np.pi / 2e-7 * (np.arange(96) + 0.5) / 96:
+        here = Scene(Body(MOMENTS), *start, epoch=epoch, torques=[alone]).drift(average="spin")
+        rates.append(law(np.linalg.norm(orbit.position(epoch))) * np.append(here.momentum, here.excess))
+    mean = np.mean(rates, axis=0)
+    assert np.abs(np.append(found.momentum, found.excess) - mean).max() < 3e-3 * np.abs(mean).max()

@@ -379,3 +379,21 @@ def test_ensemble_without_refusals_has_no_errors_and_another_word_is_refused():
     assert ensemble.errors == {} and ensemble.at(0.0).errors == {}
     with pytest.raises(andoyer.InputError, match='errors = "ignore": it must be "raise" or "nan"'):
         andoyer.Ensemble([1, 1.5, 2], [[0, 0, 0, 1]] * 2, [0.1, 0.2, 1.0], errors="ignore")
+
+
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
+def test_members_of_which_nothing_is_known_at_the_end_are_served_up_to_there():
+    orbit = andoyer.Orbit(1.0, 0.1)
+    rates = [[0.01, 0.02, 1.0], [0.05, -0.03, 1.1], [0.0, 0.0, 1.0]]
+    options = {"orbits": orbit, "method": "integrated", "tolerance": 1e-8, "span": (0, 2000)}
+    with pytest.raises(andoyer.TheoryError, match=r"^member 0: span = \[0, 2000\]: nearby .* and something is known from 0 to "):
+        andoyer.Ensemble([0.5, 0.8, 1.0], [0, 0, 0, 1], rates, **options).at([10.0])
+    ensemble = andoyer.Ensemble([0.5, 0.8, 1.0], [0, 0, 0, 1], rates, errors="nan", **options)
+    first, last = ensemble.plans[0].known
+    assert first == 0 and 50 < last < 1000
+    with pytest.warns(andoyer.ToleranceWarning, match="nothing is known at the ends of their spans, and these times are NaN"):
+        samples = ensemble.at([0.0, 50.0, last, last + 1e-6])
+    assert np.isnan(samples.attitude[0, :, 0]).tolist() == [False, False, False, True] and 0 in samples.errors
+    assert "nearby states separate so fast" in str(samples.errors[0])
+    later = ensemble.after(2000.0)
+    assert later.mode[0] == "" and np.isnan(later.energy_ratio[0]) and ensemble.after(50.0).mode[0] != ""

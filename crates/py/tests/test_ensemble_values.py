@@ -135,3 +135,21 @@ def test_time_that_a_motion_does_not_serve_is_nan_alone(options, own):
     assert np.array_equal(np.isnan(ensemble.partials(bad).attitude).all(axis=(-1, -2)), lost)
     assert list(samples.errors) == [0, 1] and not expected.errors
     assert "1e300" in str(samples.errors[1])
+
+
+def test_progress_counts_the_members_to_the_last_and_may_stop_the_evaluation():
+    ensemble = andoyer.Ensemble(
+        [1, 1.02, 1.05], [0, 0, 0, 1], np.linspace(1.0, 1.1, 40)[:, None] * [0, 0.01, 1], orbits=andoyer.Orbit(2e-3), method="integrated", span=(0, 1e3)
+    )
+    told = []
+    samples = ensemble.at([0.0, 1e3], progress=lambda done, of: told.append((done, of)))
+    assert told[-1] == (40, 40) and told == sorted(set(told))
+    assert np.array_equal(samples.attitude, ensemble.at([0.0, 1e3]).attitude)
+
+    def stop(done, of):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        ensemble.at([0.0], progress=stop)
+    with pytest.raises(TypeError, match="callable"):
+        ensemble.at([0.0], progress=3)

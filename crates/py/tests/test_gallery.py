@@ -33,6 +33,7 @@ def test_there_are_the_twenty_of_them():
         "flyby",
         "relaxation",
         "satellite_years",
+        "yorp_cycles",
     ]
 
 

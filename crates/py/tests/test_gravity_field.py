@@ -169,3 +169,11 @@ def test_an_orbit_without_a_length_is_refused_and_files_and_pickles_keep_the_fie
     assert eval(repr(body), {"Body": andoyer.Body, "Gravity": andoyer.Gravity}) == body
     members = andoyer.Ensemble.from_scenes([scene, scene])
     assert np.array_equal(members.at([1e6]).attitude[1], scene.solve().at([1e6]).attitude)
+
+
+def test_a_field_of_zeros_is_none():
+    body = andoyer.Body([0.4, 0.41, 0.42], gravity=andoyer.Gravity({"C30": 0.0, "C44": 0.0}, 1.0, inertia_factor=0.4))
+    scene = andoyer.Scene(body, [0, 0, 0, 1], [0.0, 0.01, 1.0], orbit=andoyer.Orbit(2e-3, 0.1), tolerance=1e-6, span=(0, 1e3))
+    alone = andoyer.Scene(andoyer.Body([0.4, 0.41, 0.42]), [0, 0, 0, 1], [0.0, 0.01, 1.0], orbit=andoyer.Orbit(2e-3, 0.1), tolerance=1e-6, span=(0, 1e3))
+    assert scene.solve().plan.method == alone.solve().plan.method == "closed"
+    assert (scene.solve().attitude(500.0) == alone.solve().attitude(500.0)).all()

@@ -3,6 +3,7 @@
 import copy
 import math
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -195,3 +196,16 @@ def test_a_torque_that_no_double_holds_is_refused_by_name(elements, argument, me
     with pytest.raises(InputError, match=f"orbit.{argument} = .* normal doubles") as caught:
         Scene(Body([0.5, 0.75, 1.0]), [0, 0, 0, 1], [0.2, 0.3, 1.1], orbit=orbit, span=(0, 20), method=method)
     assert caught.value.argument == argument
+
+
+@pytest.mark.parametrize(("length", "time", "gm", "factor"), [(1.0, 1.0, 3.986e14, "1.0e-9"), (1e3, 1.0, 3.986e5, "1.0e9"), (1.0, 1 / 86400, 3.986e5, "7.5e9")])
+def test_units_of_a_table_that_do_not_fit_those_of_gm_are_said(length, time, gm, factor):
+    seconds = np.arange(0, 86400, 600.0)
+    angle = 7.2921e-5 * seconds
+    kilometres = 42164.2 * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    with pytest.warns(UserWarning, match=f"acceleration of the table is {factor} times gm: do positions, times and gm have the same units"):
+        andoyer.TabulatedOrbit(seconds * time, kilometres * length, gm)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        andoyer.TabulatedOrbit(seconds, kilometres, 3.986e5)
+        andoyer.TabulatedOrbit(seconds, kilometres, 3.986e5 / 82)  # a small partner, whose primary is heavier

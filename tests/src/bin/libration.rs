@@ -16,7 +16,7 @@ use std::time::Instant;
 use andoyer_propagate::disturbers::{CassiniState, cassini_states};
 use andoyer_propagate::libration_terms::Libration;
 use andoyer_propagate::nalgebra::{UnitQuaternion, Vector3};
-use andoyer_propagate::{Body, Method, Motion, Orbit, Scene, SeriesTables, State};
+use andoyer_propagate::{Body, Method, Motion, Orbit, Scene, State};
 
 const TURN: f64 = std::f64::consts::TAU;
 
@@ -36,9 +36,9 @@ fn difference(one: &Motion, two: &Motion, [start, stop]: [f64; 2]) -> f64 {
     (0..=40).map(|k| at(one, k).angle_to(&at(two, k))).fold(0.0, f64::max)
 }
 
-fn report(name: &str, scene: &Scene, tables: &SeriesTables) -> Option<[f64; 2]> {
+fn report(name: &str, scene: &Scene) -> Option<[f64; 2]> {
     let start = Instant::now();
-    let solved = scene.clone().method(Method::Libration).solve_with(tables);
+    let solved = scene.clone().method(Method::Libration).solve();
     let first = start.elapsed().as_secs_f64();
     let motion = match solved {
         Ok(motion) => motion,
@@ -48,7 +48,7 @@ fn report(name: &str, scene: &Scene, tables: &SeriesTables) -> Option<[f64; 2]> 
         }
     };
     let start = Instant::now();
-    let _ = scene.clone().method(Method::Libration).solve_with(tables);
+    let _ = scene.clone().method(Method::Libration).solve();
     let again = start.elapsed().as_secs_f64();
     let (begin, stop) = scene.asked_span().expect("a span");
     let start = Instant::now();
@@ -95,7 +95,7 @@ fn cases() {
         ("Moon 0.1 deg", circle(moon, [0.1, 0.06, 0.05], 1.0, 0.0549, 1e-9)),
         ("Mercury 1 deg", circle([0.9998, 0.9999, 1.0], [1.0, 0.0, 0.0], 1.5, 0.2056, 1e-7)),
     ] {
-        report(name, &scene, &SeriesTables::default());
+        report(name, &scene);
     }
 }
 
@@ -181,7 +181,7 @@ fn many(count: usize, seed: u64, precessing: bool) {
         let [a, b, _] = scene.body().moments();
         let e = scene.asked_orbit().map_or(0.0, |orbit| orbit.elements()[1]);
         let name = format!("{} B-A {:.1e} C-B {:.1e} e {e:.3}", number + 1, b - a, 1.0 - b);
-        if let Some([error, estimate]) = report(&name, &scene, &SeriesTables::default()) {
+        if let Some([error, estimate]) = report(&name, &scene) {
             served += 1;
             met += usize::from(estimate <= scene.asked_tolerance());
             most = most.max(error / estimate);
@@ -215,7 +215,7 @@ fn moon(tolerance: f64) -> Scene {
 fn moons() {
     for tolerance in [1e-4, 1e-6, 1e-8] {
         let scene = moon(tolerance);
-        report(&format!("Moon {tolerance:.0e}"), &scene, &SeriesTables::default());
+        report(&format!("Moon {tolerance:.0e}"), &scene);
         let Ok(motion) = scene.method(Method::Libration).solve() else { continue };
         let Some(libration) = motion.libration() else { continue };
         println!("periods {:?} amplitudes {:?}", libration.periods(), libration.amplitudes());
@@ -236,12 +236,10 @@ fn reach(count: usize, seed: u64) {
         let Ok(truth) = scene.clone().method(Method::Integrated).tolerance(1e-12).solve() else { continue };
         let (start, stop) = scene.asked_span().expect("a span");
         let error = |motion: &Motion| difference(motion, &truth, [start, stop]);
-        let tables = SeriesTables::default();
-        let is_served = scene.solve_with(&tables).is_ok_and(|motion| motion.plan().meets_tolerance());
+        let is_served = scene.solve().is_ok_and(|motion| motion.plan().meets_tolerance());
         // A fixed order takes the time of all below it, which grows tenfold from one to the next: none is begun after 5 s.
         let begin = Instant::now();
-        let reaches =
-            |order: usize| scene.clone().order(order).solve_with(&tables).is_ok_and(|motion| error(&motion) <= 1e-8);
+        let reaches = |order: usize| scene.clone().order(order).solve().is_ok_and(|motion| error(&motion) <= 1e-8);
         let mut orders = (4..=12).step_by(2).take_while(|_| begin.elapsed().as_secs_f64() < 5.0);
         let is_reached = is_served || orders.any(reaches);
         (served, reached) = (served + usize::from(is_served), reached + usize::from(is_reached));
@@ -323,9 +321,8 @@ fn speed() {
         ("Moon", scene(moon, [1.0, 0.0, 0.0], 0.0549, 1e-9), scene(moon, [0.95, 0.0, 0.0], 0.0549, 1e-9)),
         ("Moon, pole", scene(moon, [1.0, 0.6, 0.5], 0.0549, 1e-5), scene(moon, [0.95, 0.6, 0.5], 0.0549, 1e-5)),
     ] {
-        let tables = SeriesTables::default();
-        let (of_first, first) = least(1, || one.solve_with(&tables));
-        let (of_next, second) = least(21, || next.solve_with(&tables));
+        let (of_first, first) = least(1, || one.solve());
+        let (of_next, second) = least(21, || next.solve());
         let (Ok(first), Ok(_)) = (first, second) else {
             println!("{name}: not served");
             continue;
@@ -363,7 +360,7 @@ fn main() {
             let draw: Draw = numbers.collect::<Vec<f64>>().try_into().unwrap_or([0.5; 20]);
             for scene in [false, true].iter().filter_map(|&precessing| drawn(&draw, precessing)) {
                 println!("{:?} {:?}", scene.body().moments(), scene.asked_orbit());
-                report("drawn", &scene, &SeriesTables::default());
+                report("drawn", &scene);
             }
         }
         Some("speed") => speed(),

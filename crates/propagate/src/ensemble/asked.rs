@@ -8,7 +8,7 @@ use crate::input::torque::Torque;
 use crate::motion::solved::length;
 use crate::orbit::disturbing_body::DisturbingBody;
 
-use super::kept::Kept;
+use super::kept::KeptMotions;
 use super::members::Ensemble;
 use super::on_error::OnError;
 use super::options::once;
@@ -143,7 +143,7 @@ impl Ensemble {
     fn each_member_scene(mut self, change: impl Fn(usize, Scene) -> Scene) -> Self {
         let scenes = std::mem::take(&mut self.scenes).into_iter().enumerate();
         self.scenes = scenes.map(|(index, scene)| scene.map(|scene| change(index, scene))).collect();
-        self.kept = Kept::default();
+        self.kept = KeptMotions::default();
         self
     }
 

@@ -1,11 +1,10 @@
 //! The motions that an ensemble keeps after it has solved them.
 
-use std::collections::HashMap;
-use std::fmt;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 use crate::error::Error;
 use crate::motion::solved::Motion;
+use crate::numerics::kept::{Goes, Keep, Kept};
 
 /// The largest memory of the motions that an ensemble keeps \[bytes\].
 pub const KEPT_MEMORY: usize = 512 << 20;
@@ -13,92 +12,52 @@ pub const KEPT_MEMORY: usize = 512 << 20;
 /// The motion of a member, or why it has none.
 pub(super) type Solved = Arc<Result<Motion, Error>>;
 
-/// What members were solved to. Copies of an ensemble share it, and it does not count when ensembles are compared.
-#[derive(Clone, Default)]
-pub(super) struct Kept(Arc<Mutex<Motions>>);
+/// What members were solved to, by index. Copies of an ensemble share it, and it does not count when ensembles are compared.
+#[derive(Clone, Debug)]
+pub(super) struct KeptMotions(Arc<Kept<usize, Result<Motion, Error>>>);
 
-#[derive(Default)]
-struct Motions {
-    /// With the memory that was counted for each.
-    by_member: HashMap<usize, (Solved, usize)>,
-    memory: usize,
+impl Default for KeptMotions {
+    fn default() -> Self {
+        Self(Arc::new(Kept::new(KEPT_MEMORY, Goes::Newest)))
+    }
 }
 
-impl Kept {
+impl KeptMotions {
     pub(super) fn get(&self, member: usize) -> Option<Solved> {
-        self.motions().by_member.get(&member).map(|(solved, _)| solved.clone())
+        self.0.get(&member)
     }
 
-    /// Keeps what a member was solved to if there is room, unless it was stopped. A motion may have grown since it was kept, because the averaged equations are solved where times need
-    /// them; one that has no room any more is dropped.
+    /// Keeps what a member was solved to, unless it was stopped. A motion may have grown since it was kept, because the averaged equations are solved where times need them.
     pub(super) fn keep(&self, member: usize, solved: Solved) {
         if !matches!(*solved, Err(Error::Stopped)) {
-            self.keep_within(KEPT_MEMORY, member, solved);
+            self.0.keep(member, solved);
         }
-    }
-
-    fn keep_within(&self, most: usize, member: usize, solved: Solved) {
-        let memory = solved.as_ref().as_ref().map_or(size_of::<Motion>(), Motion::memory);
-        let mut motions = self.motions();
-        if let Some((_, before)) = motions.by_member.remove(&member) {
-            motions.memory -= before;
-        }
-        if motions.memory + memory <= most {
-            motions.memory += memory;
-            motions.by_member.insert(member, (solved, memory));
-        }
-    }
-
-    /// Each change leaves the map and its memory in accord, also if a thread panicked after it.
-    fn motions(&self) -> MutexGuard<'_, Motions> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl PartialEq for Kept {
+impl Keep for Result<Motion, Error> {
+    fn memory(&self) -> usize {
+        self.as_ref().map_or(size_of::<Motion>(), Motion::memory)
+    }
+}
+
+impl PartialEq for KeptMotions {
     fn eq(&self, _: &Self) -> bool {
         true
-    }
-}
-
-impl fmt::Debug for Kept {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let motions = self.motions();
-        write!(f, "{} motions in {} bytes", motions.by_member.len(), motions.memory)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(feature = "torques")]
     use crate::State;
 
-    fn solved(rates: [f64; 3]) -> Solved {
-        let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], rates).expect("a state");
-        Arc::new(Ok(crate::solve::solved([1.0, 1.02, 1.05], state)))
-    }
-
     #[test]
-    fn memory_is_counted_and_bounded() {
-        let [one, other] = [solved([0.0, 0.01, 1.0]), solved([0.0, 1.0, 0.001])];
-        let memory = |solved: &Solved| solved.as_ref().as_ref().map_or(0, Motion::memory);
-        let most = memory(&one).max(memory(&other)) + 1;
-        let kept = Kept::default();
-        kept.keep_within(most, 0, one.clone());
-        kept.keep_within(most, 2, other.clone());
-        assert!(kept.get(0).is_some() && kept.get(2).is_none());
-        kept.keep_within(memory(&one) - 1, 0, one.clone());
-        assert!(kept.get(0).is_none() && kept.motions().memory == 0);
-        kept.keep_within(most, 2, other.clone());
-        kept.keep_within(most, 2, other.clone());
-        assert_eq!(kept.motions().memory, memory(&other));
-    }
-
-    #[test]
-    fn what_was_stopped_is_not_kept() {
-        let kept = Kept::default();
+    fn what_was_stopped_is_not_kept_and_copies_share_the_rest() {
+        let kept = KeptMotions::default();
         kept.keep(0, Arc::new(Err(Error::Stopped)));
-        kept.keep(1, Arc::new(Err(Error::Separatrix)));
+        kept.clone().keep(1, Arc::new(Err(Error::Separatrix)));
         assert!(kept.get(0).is_none() && kept.get(1).is_some());
     }
 
@@ -115,14 +74,5 @@ mod tests {
         let before = motion.memory();
         motion.at(1e6).expect("a time"); // 318 orbits: 1,273 quarters
         assert!(motion.memory() > before + 1273 * 800);
-    }
-
-    #[test]
-    fn copies_share_what_was_solved() {
-        let kept = Kept::default();
-        let motion = solved([0.0, 0.01, 1.0]);
-        kept.clone().keep(1, motion.clone());
-        assert_eq!(kept.get(1).as_ref().map(Arc::as_ptr), Some(Arc::as_ptr(&motion)));
-        assert!(kept.get(0).is_none());
     }
 }

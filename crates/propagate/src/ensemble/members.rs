@@ -11,7 +11,7 @@ use crate::input::scene::Scene;
 use crate::motion::solved::length;
 use crate::simd::halt::GOING;
 
-use super::kept::Kept;
+use super::kept::KeptMotions;
 use super::on_error::OnError;
 use super::options::Options;
 
@@ -44,7 +44,7 @@ pub struct Ensemble {
     pub(super) options: Options,
     /// The scenes of [`Ensemble::from_scenes`], one for each member, or none. Where there are scenes, `options` has what they have in common.
     pub(super) scenes: Vec<Result<Scene, Error>>,
-    pub(super) kept: Kept,
+    pub(super) kept: KeptMotions,
 }
 
 impl Ensemble {
@@ -139,7 +139,7 @@ impl Ensemble {
             on_error,
             options: Options::default(),
             scenes: Vec::new(),
-            kept: Kept::default(),
+            kept: KeptMotions::default(),
         };
         ensemble.raise_bad_members(stop)?;
         Ok(ensemble)

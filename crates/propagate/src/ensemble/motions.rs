@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::error::Error;
 use crate::input::body::Body;
-use crate::input::options::Method;
+use crate::input::options::{Method, Served};
 use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::motion::solved::Motion;
@@ -16,6 +16,7 @@ use crate::solve::{disturbed, several};
 
 use super::kept::Solved;
 use super::members::{BLOCK, Ensemble};
+use super::on_error::OnError;
 
 /// Members that are solved at once if there are orbits: those that are integrated fill the lanes of a vector, and the others are shared among the threads.
 const DISTURBED_GROUP: usize = 8;
@@ -55,7 +56,8 @@ impl Ensemble {
         }
         let kept: Vec<_> = members.clone().map(|member| self.kept.get(member)).collect();
         let unsolved = members.clone().zip(&kept).filter(|(_, kept)| kept.is_none());
-        let mut solved = disturbed(unsolved.map(|(member, _)| self.scene(member)).collect(), stop).into_iter();
+        let mut solved =
+            disturbed(unsolved.map(|(member, _)| self.scene(member)).collect(), self.served(), stop).into_iter();
         for (member, kept) in members.zip(kept) {
             let Some(solved) = kept.or_else(|| solved.next().map(Arc::new)) else { continue };
             each(&solved);
@@ -77,8 +79,16 @@ impl Ensemble {
 
     /// The motion of a member that is kept.
     pub(super) fn solved(&self, member: usize) -> Solved {
-        let solve = || disturbed(vec![self.scene(member)], &GOING).pop().unwrap_or(Err(Error::Stopped));
+        let solve = || disturbed(vec![self.scene(member)], self.served(), &GOING).pop().unwrap_or(Err(Error::Stopped));
         self.kept.get(member).unwrap_or_else(|| Arc::new(solve()))
+    }
+
+    /// The part of its span that a member is asked for: times that are refused are NaN alone, if members may be.
+    fn served(&self) -> Served {
+        match self.on_error {
+            OnError::Raise => Served::WholeSpan,
+            OnError::Nan => Served::WhileKnown,
+        }
     }
 
     /// Whether no member is kept.

@@ -3,7 +3,7 @@
 //! A member's motion lives while its rows are written; those under a torque are kept ([`super::kept`]).
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
@@ -24,7 +24,7 @@ use super::pool::on_threads;
 impl Ensemble {
     /// How its members are evaluated.
     pub fn run(&self) -> MembersRun<'_> {
-        MembersRun { ensemble: self, since_epoch: false, stop: &GOING }
+        MembersRun { ensemble: self, since_epoch: false, stop: &GOING, done: None }
     }
 
     /// The plan of every member.
@@ -66,6 +66,7 @@ pub struct MembersRun<'a> {
     pub(super) ensemble: &'a Ensemble,
     since_epoch: bool,
     stop: &'a AtomicBool,
+    done: Option<&'a AtomicUsize>,
 }
 
 impl<'a> MembersRun<'a> {
@@ -79,6 +80,12 @@ impl<'a> MembersRun<'a> {
     #[must_use]
     pub fn until(self, stop: &'a AtomicBool) -> Self {
         Self { stop, ..self }
+    }
+
+    /// Counts in `done` the members that are evaluated, for another thread that shows the progress.
+    #[must_use]
+    pub fn counting(self, done: &'a AtomicUsize) -> Self {
+        Self { done: Some(done), ..self }
     }
 
     /// The plan of every member, or why it has none.
@@ -362,12 +369,16 @@ impl<'a> MembersRun<'a> {
                 return outcome.refused(0, stopped);
             }
             let members = group * size..group * size + rows.len();
+            let count = rows.len();
             let (mut all, mut rows) = (outcome, members.clone().zip(rows.iter_mut()));
             ensemble.each_motion(members, self.stop, |motion| {
                 if let Some(member) = rows.next() {
                     all = told(std::mem::take(&mut all), member, motion);
                 }
             });
+            if let Some(done) = self.done {
+                done.fetch_add(count, Ordering::Relaxed);
+            }
             all
         };
         let mut rows: Vec<Rows> = rows.collect();

@@ -105,26 +105,39 @@ impl Evolution {
     /// # Errors
     /// Those of [`Scene::solve`] for these rotations.
     pub fn plan(&self) -> Result<EvolutionPlan, Error> {
-        let truncations = self.scene.asked_torques().iter().map(|torque| torque.truncation());
-        let truncation = truncations.map(|part| part * part).sum::<f64>().sqrt();
         let second_order = self.second_order()?;
         let epoch = self.problem.equations.epoch;
-        let length = |path: &AveragedPath| {
-            let change = |pair: &[Node]| {
-                let [one, other] = [pair[0].state, pair[1].state].map(|[x, y, z, _]| Vector3::new(x, y, z));
-                (other - one).norm()
-            };
-            second_order[0] * (path.end.time - epoch).abs()
-                + truncation * path.nodes.windows(2).map(change).sum::<f64>()
-        };
         let mut resonances = Vec::new();
         let mut error_bound = 0.0_f64;
         for path in &self.paths {
             let passed = passed(&self.problem, path, self.tolerance)?;
-            error_bound = error_bound.max(length(path) + passed.iter().map(|one| one.jump).sum::<f64>());
+            let jumps: f64 = passed.iter().map(|one| one.jump).sum();
+            let length = second_order[0] * (path.end.time - epoch).abs() + self.truncated(path);
+            error_bound = error_bound.max(length + jumps);
             resonances.extend(passed);
         }
-        Ok(EvolutionPlan { error_bound, truncation, second_order, resonances })
+        Ok(EvolutionPlan { error_bound, truncation: self.truncation(), second_order, resonances })
+    }
+
+    /// The part of the error that needs no integration, as [`EvolutionPlan::large_error`]: what the polynomials of shapes leave out, times the change of the angular momentum.
+    pub fn large_error(&self) -> Option<String> {
+        let largest = self.paths.iter().map(|path| self.truncated(path)).fold(0.0, f64::max);
+        large(largest, self.truncation())
+    }
+
+    /// What the polynomials of shapes leave out, relative to the torque.
+    fn truncation(&self) -> f64 {
+        let truncations = self.scene.asked_torques().iter().map(|torque| torque.truncation());
+        truncations.map(|part| part * part).sum::<f64>().sqrt()
+    }
+
+    /// The truncation times the length of a path of the angular momentum, over its size at the epoch.
+    fn truncated(&self, path: &AveragedPath) -> f64 {
+        let change = |pair: &[Node]| {
+            let [one, other] = [pair[0].state, pair[1].state].map(|[x, y, z, _]| Vector3::new(x, y, z));
+            (other - one).norm()
+        };
+        self.truncation() * path.nodes.windows(2).map(change).sum::<f64>()
     }
 
     /// The larger rates of second order of windows at the epoch and near both ends of the paths.
@@ -219,6 +232,29 @@ pub struct EvolutionPlan {
     pub second_order: [f64; 2],
     /// The resonances between rotation and wobble that are passed.
     pub resonances: Vec<PassedResonance>,
+}
+
+impl EvolutionPlan {
+    /// A sentence if the error bound is above [`LARGE`], otherwise `None`.
+    pub fn large_error(&self) -> Option<String> {
+        large(self.error_bound, self.truncation)
+    }
+}
+
+/// An error of the angular momentum over its size from which an evolution says so: the ratio at which averages end.
+const LARGE: f64 = 0.1;
+
+/// The sentence for an error above [`LARGE`].
+fn large(error: f64, truncation: f64) -> Option<String> {
+    let part = if truncation > 0.0 {
+        format!("; the polynomials of its shapes leave out {truncation:.1e} of the torque")
+    } else {
+        String::new()
+    };
+    let said = || {
+        format!("the error of the angular momentum may reach {error:.1e} of its size at the epoch, above {LARGE}{part}")
+    };
+    (error.is_nan() || error > LARGE).then(said)
 }
 
 /// Options of an evolution.

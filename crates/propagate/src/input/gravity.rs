@@ -175,6 +175,11 @@ impl Gravity {
         &self.coefficients
     }
 
+    /// Whether a coefficient of degree 3 or 4 is not 0.
+    pub(crate) fn acts(&self) -> bool {
+        HARMONICS.iter().any(|(name, _)| self.coefficient(name).is_some_and(|value| value != 0.0))
+    }
+
     /// The reference radius.
     pub fn radius(&self) -> f64 {
         self.radius

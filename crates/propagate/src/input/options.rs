@@ -100,3 +100,12 @@ pub enum Averaging {
     /// Over the rotation only: the averaged equations are solved for each quarter of the orbit.
     Spin,
 }
+
+/// The part of the span that a motion is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Served {
+    /// All of it, or an error.
+    WholeSpan,
+    /// As much as something is known of the attitude.
+    WhileKnown,
+}

@@ -239,7 +239,7 @@ impl Scene {
     /// # Errors
     /// - [`Error::Torque`] for a gravity field and an orbit without a semi-major axis.
     fn gravity_torques(&self) -> Result<Vec<Torque>, Error> {
-        let Some(gravity) = self.body.gravity() else { return Ok(Vec::new()) };
+        let Some(gravity) = self.body.gravity().filter(|gravity| gravity.acts()) else { return Ok(Vec::new()) };
         let torques = self.disturbing.iter().map(|body| gravity.torques(body)).collect::<Result<Vec<_>, _>>()?;
         Ok(torques.into_iter().flatten().collect())
     }

@@ -15,6 +15,7 @@ use super::series::{Row, largest};
 use super::step_errors::StepErrors;
 use super::torques::Torques;
 use crate::error::Error;
+use crate::input::options::Served;
 use crate::input::scene::Scene;
 use crate::motion::plan::IntegrationPlan;
 use crate::numerics::scaling::{exponent, scaled};
@@ -44,6 +45,8 @@ pub(crate) struct Integrated {
     pub(super) exponent: i32,
     /// The first and the last time from the epoch, in the user's unit.
     pub(crate) reach: [f64; 2],
+    /// Whether the attitude is unknown beyond these times, before and after the epoch: otherwise they are the ends of the span.
+    pub(super) lost: [bool; 2],
     pub(crate) error: f64,
     /// The bound without the interpolation of a table, if the interpolation dominates it.
     uninterpolated: Option<f64>,
@@ -53,9 +56,14 @@ pub(crate) struct Integrated {
 impl Integrated {
     /// The motion of a scene about principal axes over its span.
     pub(crate) fn new(scene: &Scene, reason: &str, stop: &AtomicBool) -> Result<Self, Error> {
+        Self::served(scene, reason, Served::WholeSpan, stop)
+    }
+
+    /// The motion of a scene about principal axes over as much of its span as is asked for.
+    pub(super) fn served(scene: &Scene, reason: &str, served: Served, stop: &AtomicBool) -> Result<Self, Error> {
         let problem = Problem::new(scene, reason)?;
         let first = problem.solved(problem.first_error(), stop);
-        Self::of(&problem, scene, first.and_then(|first| problem.repeated(first, stop)), stop)
+        Self::of(&problem, scene, first.and_then(|first| problem.repeated(first, stop)), (served, stop))
     }
 
     /// From the integration whose error bound counts.
@@ -63,9 +71,10 @@ impl Integrated {
         problem: &Problem,
         scene: &Scene,
         measured: Result<MeasuredMotion, Error>,
-        stop: &AtomicBool,
+        (served, stop): (Served, &AtomicBool),
     ) -> Result<Self, Error> {
-        measured.and_then(|measured| Self::known(problem, scene, measured, stop)).map_err(|error| match error {
+        let known = |measured| Self::known(problem, scene, measured, (served, stop));
+        measured.and_then(known).map_err(|error| match error {
             // In the units of the scene.
             Error::SpunUp { time, rate, steps, bound } => Error::SpunUp {
                 time: scene.state().epoch + scaled(time, -problem.exponent),
@@ -88,8 +97,13 @@ impl Integrated {
         Ok(problem.motion(precision.order, [before?.0, after?.0], (f64::INFINITY, None)))
     }
 
-    /// The motion, unless nothing is known of it at the end of the span.
-    fn known(problem: &Problem, scene: &Scene, measured: MeasuredMotion, stop: &AtomicBool) -> Result<Self, Error> {
+    /// The motion, or where nothing is known of it at the end of the span its part before that.
+    fn known(
+        problem: &Problem,
+        scene: &Scene,
+        measured: MeasuredMotion,
+        (served, stop): (Served, &AtomicBool),
+    ) -> Result<Self, Error> {
         let MeasuredMotion { motion, profiles, .. } = measured;
         if motion.error < PI {
             return Ok(motion);
@@ -98,6 +112,9 @@ impl Integrated {
         if let (Some(_), Some(error)) = (motion.uninterpolated, too_coarse(scene, motion.reach)) {
             return Err(error);
         }
+        if served == Served::WhileKnown {
+            return Ok(motion.while_known(&profiles));
+        }
         let mut held = [0.0; 2];
         for (side, profile) in profiles.iter().enumerate() {
             held[side] = match profile.iter().take_while(|(_, error)| *error <= tolerance).last() {
@@ -105,19 +122,36 @@ impl Integrated {
                 None => problem.held(side, &motion.sides[side].steps, (first, tolerance), stop)?,
             };
         }
-        let [start, stop] = held.map(|time| scene.state().epoch + scaled(time, -problem.exponent));
+        let dated = |time: f64| scene.state().epoch + scaled(time, -problem.exponent);
+        let ([start, stop], known) = (held.map(dated), [0, 1].map(|side| dated(last_known(&profiles[side]).0)));
         let span = scene.asked_span().map_or([start, stop], <[f64; 2]>::from);
-        Err(Error::Unpredictable { tolerance, span, start, stop })
+        Err(Error::Unpredictable { tolerance, span, start, stop, known })
     }
 
-    /// The entries of the plan.
-    pub(crate) fn plan(&self) -> IntegrationPlan {
+    /// The motion up to the last times at which something is known of it.
+    fn while_known(mut self, profiles: &[Profile; 2]) -> Self {
+        self.error = FLOOR;
+        for (side, profile) in profiles.iter().enumerate() {
+            let (time, error) = last_known(profile);
+            self.error = self.error.max(error);
+            self.lost[side] = profile.last().is_some_and(|(_, error)| *error >= PI);
+            if self.lost[side] {
+                self.reach[side] = scaled(time, -self.exponent);
+                self.sides[side].end_at(time, self.order);
+            }
+        }
+        self
+    }
+
+    /// The entries of the plan, of a scene with this epoch.
+    pub(crate) fn plan(&self, epoch: f64) -> IntegrationPlan {
         let steps = self.sides.iter().map(|side| side.steps.len() - 1).sum();
         IntegrationPlan {
             steps,
             bodies: self.equations.bodies.len(),
             torques: self.torques,
             uninterpolated: self.uninterpolated,
+            known: self.lost.contains(&true).then(|| self.reach.map(|time| epoch + time)),
         }
     }
 
@@ -132,6 +166,11 @@ impl Integrated {
     pub(crate) fn order(&self) -> usize {
         self.order
     }
+}
+
+/// The last time at which something is known of the attitude, and its error bound.
+fn last_known(profile: &Profile) -> (f64, f64) {
+    profile.iter().take_while(|(_, error)| *error < PI).last().copied().unwrap_or((0.0, FLOOR))
 }
 
 /// A motion by steps of a relative error, with its error bounds before and after the epoch, and the errors of all steps relative to those by rounding alone.
@@ -275,7 +314,8 @@ impl Problem {
     /// The motion by some steps; `bounds` are the error bound, and that without the interpolation of a table where this dominates.
     fn motion(&self, order: usize, sides: [Side; 2], (error, uninterpolated): (f64, Option<f64>)) -> Integrated {
         let Self { exponent, reach, torques, .. } = *self;
-        Integrated { equations: self.equations.clone(), order, sides, exponent, reach, error, uninterpolated, torques }
+        let (equations, lost) = (self.equations.clone(), [false; 2]);
+        Integrated { equations, order, sides, exponent, reach, lost, error, uninterpolated, torques }
     }
 
     /// The first integration, or a second one with shorter steps where this has the smaller error bound.

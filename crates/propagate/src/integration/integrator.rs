@@ -63,6 +63,13 @@ impl Side {
         Self { steps: Vec::with_capacity(steps), coefficients: Vec::with_capacity(steps * (order + 1)) }
     }
 
+    /// Without the steps after a time from the epoch, with the coefficients of an order.
+    pub(super) fn end_at(&mut self, time: f64, order: usize) {
+        let steps = self.steps.partition_point(|step| step.time.0.abs() <= time.abs()).max(1);
+        self.steps.truncate(steps);
+        self.coefficients.truncate((steps - 1) * (order + 1));
+    }
+
     /// Without the room that was not needed.
     pub(super) fn fitted(mut self) -> Self {
         self.steps.shrink_to_fit();

@@ -16,29 +16,32 @@ use super::lane_tasks::{
     LaneProblem, MeasuredInLanes, MeasuredSide, MeasuredSides, SidesInLanes, StepsInLanes, lane_precision,
 };
 use crate::error::Error;
+use crate::input::options::Served;
 use crate::input::scene::Scene;
 use crate::simd::instruction_set::dispatch;
 
 /// The motions of scenes about principal axes over their spans, each as [`Integrated::new`] has it but for rounding and the lengths of steps. A motion does not depend on the
 /// others. A scene comes with the reason why it is integrated.
-pub(crate) fn several(scenes: &[(&Scene, &str)], stop: &AtomicBool) -> Vec<Result<Integrated, Error>> {
+pub(crate) fn several(scenes: &[(&Scene, &str)], served: Served, stop: &AtomicBool) -> Vec<Result<Integrated, Error>> {
     let problems: Vec<_> = scenes.iter().map(|(scene, reason)| Problem::new(scene, reason)).collect();
-    let served: Vec<_> = problems.iter().map(|problem| problem.as_ref().ok().and_then(LaneProblem::new)).collect();
-    let first = measured(&served, stop);
+    let in_lanes: Vec<_> = problems.iter().map(|problem| problem.as_ref().ok().and_then(LaneProblem::new)).collect();
+    let first = measured(&in_lanes, stop);
     // Those that miss the tolerance, with shorter steps.
-    let finer = served.iter().zip(&first).map(|(served, first)| {
-        let (served, Ok(first)) = (served.as_ref()?, first.as_ref()?) else { return None };
-        served.problem.second_error(first).map(|error| LaneProblem { precision: lane_precision(error), ..*served })
+    let finer = in_lanes.iter().zip(&first).map(|(lane, first)| {
+        let (lane, Ok(first)) = (lane.as_ref()?, first.as_ref()?) else { return None };
+        lane.problem.second_error(first).map(|error| LaneProblem { precision: lane_precision(error), ..*lane })
     });
     let second = measured(&finer.collect::<Vec<_>>(), stop);
     let finished = |(index, (first, second)): (usize, (Found, Found))| {
         let (scene, reason) = scenes[index];
-        let (Ok(problem), Some(first)) = (&problems[index], first) else { return Integrated::new(scene, reason, stop) };
+        let (Ok(problem), Some(first)) = (&problems[index], first) else {
+            return Integrated::served(scene, reason, served, stop);
+        };
         let better = |first: MeasuredMotion| match second {
             Some(second) => Ok(first.or_better(second?)),
             None => problem.repeated(first, stop),
         };
-        Integrated::of(problem, scene, Result::and_then(first, better), stop)
+        Integrated::of(problem, scene, Result::and_then(first, better), (served, stop))
     };
     each(first.into_iter().zip(second).enumerate().collect(), finished)
 }

@@ -12,6 +12,7 @@ use super::series::{Row, norm};
 use super::several::several;
 use super::step_errors::moved;
 use crate::error::STEP_BYTES;
+use crate::input::options::Served;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch_few};
 use crate::{Body, Method, Orbit, Scene, State};
 
@@ -94,7 +95,7 @@ fn the_guess_of_the_bound_is_near_the_bound_and_not_above_it_in_the_median() {
         .map(|scene| {
             let (guess, steps) = prospect(&scene).expect("a guess");
             let motion = Integrated::new(&scene.tolerance(1e-15), "", &AtomicBool::new(false)).expect("a motion");
-            assert!(motion.plan().steps as f64 <= 1.3 * steps, "{} and {steps}", motion.plan().steps);
+            assert!(motion.plan(0.0).steps as f64 <= 1.3 * steps, "{} and {steps}", motion.plan(0.0).steps);
             guess / motion.error
         })
         .collect();
@@ -191,7 +192,7 @@ fn motions_in_lanes_are_those_that_are_integrated_alone() {
         .map(|(scene, e)| turned(scene, e))
         .collect();
     let going = AtomicBool::new(false);
-    let together = several(&scenes.iter().map(|scene| (scene, "")).collect::<Vec<_>>(), &going);
+    let together = several(&scenes.iter().map(|scene| (scene, "")).collect::<Vec<_>>(), Served::WholeSpan, &going);
     for (scene, together) in scenes.iter().zip(together) {
         let (alone, together) = (Integrated::new(scene, "", &going).expect("a motion"), together.expect("a motion"));
         // The kept states are those of the series: a norm that has drifted shows in the error bound.

@@ -4,15 +4,15 @@
 //! polynomials in six variables whose degrees together are N + 2 at most have C(N + 14, 12) of them, and a form of order N takes as long as some such multiplications.
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock};
 
 use andoyer_series::Error;
 use andoyer_series::birkhoff::Mode;
 use andoyer_series::periodic::{DrivenForm, DrivenOptions};
 
 use super::shape::{LockedShape, PlaneMotion};
-use crate::numerics::kept::KeptForms;
+use crate::numerics::kept::{Goes, Keep, Kept};
 
 /// Divisors below this part of the largest frequency end a normal form: the estimate refuses larger ones that are too small.
 const SMALLEST_DIVISOR: f64 = 1e-9;
@@ -20,6 +20,11 @@ const SMALLEST_DIVISOR: f64 = 1e-9;
 const HARMONICS: usize = 252;
 /// The last harmonics of the periodic motion and of its frame are at most this fraction of the tolerance, and not below the second number, which rounding reaches.
 const TAIL: [f64; 2] = [1e-4, 1e-13];
+
+/// The largest memory of the forms that a process keeps \[bytes\].
+const MOST_MEMORY: usize = 256 << 20;
+/// The forms of this process, by what they depend on, as bits.
+static FORMS: LazyLock<Kept<Vec<u64>, DrivenForm>> = LazyLock::new(|| Kept::new(MOST_MEMORY, Goes::Oldest));
 
 /// The work of a product of terms at a time of the grid, in multiplications of two floats.
 const PRODUCT: f64 = 33.0;
@@ -97,7 +102,7 @@ fn form(
         smallest_divisor: SMALLEST_DIVISOR,
         work: most,
     };
-    KeptForms::shared().of(key, || {
+    let make = || {
         let form = match known {
             Some(known) => known.to_order(shape, order, &mut going)?,
             None => DrivenForm::new(shape, &shape.rates(), options, &mut going)?,
@@ -115,5 +120,12 @@ fn form(
         };
         let multipliers = form.modes().iter().flat_map(pair).collect();
         Err(Error::MultiplierUnsupported { multipliers, problem: "grow in each period: the motion is unstable" })
-    })
+    };
+    FORMS.of(key, |_| true, make)
+}
+
+impl Keep for DrivenForm {
+    fn memory(&self) -> usize {
+        Self::memory(self)
+    }
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::fmt;
 
+use andoyer_series::error::Short;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -46,6 +47,9 @@ pub(crate) struct IntegrationPlan {
     /// The error bound without the interpolation of tables, where it is less than half of the whole and the whole exceeds the tolerance \[rad\].
     #[serde(default)]
     pub(crate) uninterpolated: Option<f64>,
+    /// The first and the last time at which something is known of the attitude, where these are not the ends of the span.
+    #[serde(default)]
+    pub(crate) known: Option<[f64; 2]>,
 }
 
 /// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
@@ -117,6 +121,11 @@ impl Plan {
     /// Number of steps of the integration; 0 if there is none.
     pub fn steps(&self) -> usize {
         self.integration.map_or(0, |integration| integration.steps)
+    }
+
+    /// The first and the last time at which something is known of the attitude, of a member of an ensemble that is not served over its whole span.
+    pub fn known(&self) -> Option<[f64; 2]> {
+        self.integration.and_then(|integration| integration.known)
     }
 
     /// The resonance of a libration: two integers whose quotient is the number of rotations an orbit, in lowest terms.
@@ -301,6 +310,13 @@ impl fmt::Display for Plan {
                 1 => writeln!(f, " and 1 other torque")?,
                 torques => writeln!(f, " and {torques} other torques")?,
             }
+        }
+        if let Some([first, last]) = self.known() {
+            let (first, last) = (Short(first), Short(last));
+            writeln!(
+                f,
+                "known         from {first} to {last}: nearby states separate so fast that nothing is known beyond"
+            )?;
         }
         if let Some(twice) = self.resonance {
             writeln!(f, "resonance     {} rotations an orbit", in_words(twice))?;

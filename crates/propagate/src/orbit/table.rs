@@ -21,6 +21,12 @@ const POSITIONS: usize = 8;
 const ROWS: usize = 6;
 /// The least number of rows of a segment.
 const LEAST: usize = 2;
+/// The intervals in which the units of a table are tried, at most.
+const PROBES: usize = 15;
+/// r² × acceleration over gm of units that do not fit, from a mass ratio of 0.3 to one of 100: the Moon's position from the Earth with the Moon's gm has 82.
+const DOUBTFUL: [[f64; 2]; 2] = [[1e-12, 1e-7], [3e8, 1e11]];
+/// Acceleration × step² over the distance of a path that is not straight.
+const STRAIGHT: f64 = 1e-10;
 /// The most coefficients of a polynomial.
 pub(crate) const COEFFICIENTS: usize = 2 * ROWS;
 
@@ -132,6 +138,41 @@ impl TabulatedOrbit {
     /// G × the mass of the disturbing body.
     pub fn gm(&self) -> f64 {
         self.gm
+    }
+
+    /// A sentence if the lengths or times of the table seem to have other units than gm: r² × acceleration, which is gm (1 + m/M) for two bodies with masses M and m, is some 1e9 times gm
+    /// or 1e-9 of it.
+    ///
+    /// ```
+    /// use andoyer_propagate::TabulatedOrbit;
+    /// let times: Vec<f64> = (0..100).map(|k| 100.0 * f64::from(k)).collect();
+    /// let place = |time: &f64| [42_164.0 * (7.292e-5 * time).cos(), 42_164.0 * (7.292e-5 * time).sin(), 0.0];
+    /// let kilometres: Vec<[f64; 3]> = times.iter().map(place).collect();
+    /// assert!(TabulatedOrbit::new(times.clone(), kilometres.clone(), 3.986e5)?.doubtful_units().is_none());
+    /// assert!(TabulatedOrbit::new(times, kilometres, 3.986e14)?.doubtful_units().is_some());
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    pub fn doubtful_units(&self) -> Option<String> {
+        let middle = |row: usize| 0.5 * self.times[row] + 0.5 * self.times[row + 1];
+        let last = self.times.len() - 1;
+        let mut ratios: Vec<f64> = (0..last)
+            .step_by(last.div_ceil(PROBES))
+            .filter_map(|row| Some((row, self.motion(middle(row)).ok()?)))
+            .filter_map(|(row, [position, _, acceleration])| {
+                let (distance, pull) = (Vector3::from(position).norm(), Vector3::from(acceleration).norm());
+                let step = self.times[row + 1] - self.times[row];
+                // A straight path has the acceleration of its rounding errors.
+                (step * pull * step > STRAIGHT * distance).then(|| distance * pull / self.gm * distance)
+            })
+            .collect();
+        ratios.sort_by(f64::total_cmp);
+        let ratio = ratios.get(ratios.len() / 2).copied()?;
+        DOUBTFUL.iter().any(|[least, most]| (least..most).contains(&&ratio)).then(|| {
+            format!(
+                "r² × acceleration of the table is {ratio:.1e} times gm: do positions, times and gm have the same units? \
+                 (kilometres beside metres make a factor of 1e9, days beside seconds one of 7.5e9)"
+            )
+        })
     }
 
     /// The position at a time within the table, in inertial components.

@@ -18,7 +18,6 @@ use crate::integration::columns::{ForcedColumn, PartialsRows};
 use crate::motion::solved::Motion;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
-use crate::torque_free::series::tables::SeriesTables;
 
 /// Angle by which a step turns the body or its orbit at the most distant time \[rad\].
 const STEP: f64 = 1e-2;
@@ -67,17 +66,16 @@ pub(super) fn fill(
 struct Samples<'a> {
     attitudes: Vec<[f64; 4]>,
     rates: Vec<[f64; 3]>,
-    tables: SeriesTables,
     stop: &'a AtomicBool,
 }
 
 impl<'a> Samples<'a> {
     fn new(times: usize, stop: &'a AtomicBool) -> Self {
-        Self { attitudes: vec![[0.0; 4]; times], rates: vec![[0.0; 3]; times], tables: SeriesTables::default(), stop }
+        Self { attitudes: vec![[0.0; 4]; times], rates: vec![[0.0; 3]; times], stop }
     }
 
     fn evaluate(&mut self, scene: &Scene, times: &[f64]) -> Result<(), Error> {
-        let motion = scene.solve_until(&self.tables, self.stop)?;
+        let motion = scene.solve_until(self.stop)?;
         motion.batch().until(self.stop).samples_into(times, &mut self.attitudes, &mut self.rates)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::derivatives::{Derivatives, INERTIA_PARAMETERS, PARAMETERS};
 use crate::error::Error;
+use crate::input::gravity::Gravity;
 use crate::motion::batch::Batch;
 use crate::motion::solved::{Motion, length};
 use crate::orbit::disturbing_body::DisturbingBody;
@@ -102,7 +103,7 @@ impl Motion {
             }
             let mut suffix = String::new();
             let of_orbit = matches!(parameter, Parameter::Orbit(_) | Parameter::Attraction(_));
-            if of_orbit && self.scene().body().gravity().is_some() {
+            if of_orbit && self.scene().body().gravity().is_some_and(Gravity::acts) {
                 let bound =
                     "absent for a body with a gravity field, whose torques of degree 3 and 4 depend on the orbit too"
                         .to_owned();

@@ -20,7 +20,6 @@ use crate::orbit::elements::Orbit;
 use crate::torque_free::error_budget::{DEFAULT_ROTATIONS, ROUNDING, sides};
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
-use crate::torque_free::series::tables::SeriesTables;
 
 /// An error bound below this is not compared with the effect of the torque \[rad\].
 const LEAST_CHECKED_BOUND: f64 = 1e-3;
@@ -92,7 +91,7 @@ fn effect(motion: &Motion) -> Result<f64, Error> {
     let (start, stop) = scene.asked_span().unwrap_or((scene.state().epoch, scene.state().epoch));
     let unforced = Scene::new(scene.body().clone(), *scene.state()).span(start, stop);
     let polhode = Polhode::new(unforced.body(), unforced.state());
-    let free = free::motion(unforced, polhode.as_ref(), Preparation::new(&SeriesTables::default()))?;
+    let free = free::motion(unforced, polhode.as_ref(), Preparation::default())?;
     (0..=EFFECT_SAMPLES).try_fold(0.0_f64, |largest, k| {
         let time = start + (stop - start) * f64::from(k) / f64::from(EFFECT_SAMPLES);
         Ok(largest.max(free.at(time)?.attitude.angle_to(&motion.at(time)?.attitude)))

@@ -8,7 +8,8 @@ use rayon::prelude::*;
 use super::free::{self, Preparation};
 use super::{averaged, integrated, libration};
 use crate::error::{Error, Kind, torque_refused};
-use crate::input::options::{Averaging, Level, Method};
+use crate::input::gravity::Gravity;
+use crate::input::options::{Averaging, Level, Method, Served};
 use crate::input::scene::Scene;
 use crate::input::torque::Torque;
 use crate::integration::integrated::Integrated;
@@ -20,7 +21,6 @@ use crate::motion::solved::Motion;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
 use crate::torque_free::polhode::Polhode;
-use crate::torque_free::series::tables::SeriesTables;
 
 /// The steps of an integration that cost as many operations as a normal form about a resonance: a step of order 20 takes some 1e4, a form of order 6 to 10 some
 /// 1e9.
@@ -72,24 +72,27 @@ struct Integration {
 ///
 /// # Errors
 /// As [`Scene::solve_until`].
-pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
+pub(super) fn motion(scene: Scene, stop: &AtomicBool) -> Result<Motion, Error> {
     let by_theory_alone = !matches!(scene.asked_method(), Method::Integrated | Method::Libration);
     if by_theory_alone && scene.asked_disturbing().is_empty() && scene.asked_torques().is_empty() {
-        return by_theory(scene, tables);
+        return by_theory(scene);
     }
-    match choice(scene, tables, stop)? {
+    match choice(scene, stop)? {
         Choice::Solved(motion) => Ok(*motion),
         Choice::Integrate(chosen) => {
             let found = Integrated::new(&chosen.scene, &chosen.reason, stop);
-            chosen.finished(found, tables)
+            chosen.finished(found)
         }
     }
 }
 
-/// The motions of several scenes about principal axes. Those that are integrated are integrated together.
-pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> Vec<Result<Motion, Error>> {
-    let tables = SeriesTables::default();
-    let choose = |scene: Result<Scene, Error>| choice(scene?, &tables, stop);
+/// The motions of several scenes about principal axes. Those that are integrated are integrated together, over as much of their spans as is asked for.
+pub(super) fn motions(
+    scenes: Vec<Result<Scene, Error>>,
+    served: Served,
+    stop: &AtomicBool,
+) -> Vec<Result<Motion, Error>> {
+    let choose = |scene: Result<Scene, Error>| choice(scene?, stop);
     let choices: Vec<_> = shared(scenes.len(), |threads| match threads {
         1 => scenes.into_iter().map(choose).collect(),
         _ => scenes.into_par_iter().map(choose).collect(),
@@ -98,16 +101,16 @@ pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> V
         Ok(Choice::Integrate(chosen)) => Some((&chosen.scene, &chosen.reason[..])),
         _ => None,
     });
-    let mut found = several(&chosen.collect::<Vec<_>>(), stop).into_iter();
+    let mut found = several(&chosen.collect::<Vec<_>>(), served, stop).into_iter();
     let mut finished = |choice| match choice {
         Choice::Solved(motion) => Ok(*motion),
-        Choice::Integrate(chosen) => chosen.finished(found.next().unwrap_or(Err(Error::Stopped)), &tables),
+        Choice::Integrate(chosen) => chosen.finished(found.next().unwrap_or(Err(Error::Stopped))),
     };
     choices.into_iter().map(|choice| choice.and_then(&mut finished)).collect()
 }
 
 /// The motion by a theory, or the integration that the scene needs.
-fn choice(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Choice, Error> {
+fn choice(scene: Scene, stop: &AtomicBool) -> Result<Choice, Error> {
     if scene.asked_torques().iter().any(|torque| matches!(torque, Torque::Dissipation(_))) {
         let bound = "absent: inner friction is averaged, by `evolve` and `drift`; a rigid body that is integrated has no such torque";
         return Err(torque_refused("torques", "dissipation", bound));
@@ -117,27 +120,22 @@ fn choice(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Choi
     };
     match (scene.asked_method(), beyond_theory(&scene)) {
         (Method::Libration, Some(reason)) if !scene.acting_torques().is_empty() => Err(Error::NoLibration { reason }),
-        (Method::Libration, _) => libration::motion(scene, tables, stop).map(Choice::from),
+        (Method::Libration, _) => libration::motion(scene, stop).map(Choice::from),
         (Method::Integrated, _) => integration(scene, String::new()),
         (Method::Auto, Some(reason)) => integration(scene, format!("theory: {reason}")),
         (method, Some(reason)) => Err(Error::OnlyIntegrated { method: method.to_string(), reason }),
-        (_, None) if may_be_integrated(&scene) => cheapest(scene, tables, stop),
-        (method, None) => without_integration(scene, method, tables, stop).map(Choice::from),
+        (_, None) if may_be_integrated(&scene) => cheapest(scene, stop),
+        (method, None) => without_integration(scene, method, stop).map(Choice::from),
     }
 }
 
 /// The theory, or a libration that serves a scene better.
-fn without_integration(
-    scene: Scene,
-    method: Method,
-    tables: &SeriesTables,
-    stop: &AtomicBool,
-) -> Result<Motion, Error> {
-    let solved = by_theory(scene.clone(), tables);
+fn without_integration(scene: Scene, method: Method, stop: &AtomicBool) -> Result<Motion, Error> {
+    let solved = by_theory(scene.clone());
     let failed = solved.as_ref().map_or(true, |motion| !motion.plan.meets_tolerance());
     if method == Method::Auto
         && failed
-        && let Ok(motion) = libration::serving(&scene, tables, stop)?
+        && let Ok(motion) = libration::serving(&scene, stop)?
     {
         return Ok(motion);
     }
@@ -152,9 +150,9 @@ fn without_integration(
 
 impl Integration {
     /// The motion by the integration, or by theory where that has the smaller bound.
-    fn finished(self, found: Result<Integrated, Error>, tables: &SeriesTables) -> Result<Motion, Error> {
+    fn finished(self, found: Result<Integrated, Error>) -> Result<Motion, Error> {
         let Self { scene, reason, by_theory, locked } = self;
-        let integrated = integrated::motion(scene, tables, reason, found);
+        let integrated = integrated::motion(scene, reason, found);
         let mut motion = match (by_theory, integrated) {
             (None, integrated) => integrated?,
             (Some(by_theory), Ok(motion)) if motion.plan.error_bound < by_theory.plan.error_bound => motion,
@@ -179,11 +177,11 @@ fn without(mut by_theory: Motion, unused: String) -> Motion {
 }
 
 /// The motion by theory: averaged if a torque acts, else free.
-fn by_theory(scene: Scene, tables: &SeriesTables) -> Result<Motion, Error> {
+fn by_theory(scene: Scene) -> Result<Motion, Error> {
     let polhode = Polhode::of(&scene);
     match scene.asked_orbits().filter(|_| !scene.body().is_sphere()) {
         Some(orbits) => averaged::motion(scene, polhode.as_ref(), &orbits),
-        None => free::motion(scene, polhode.as_ref(), Preparation::new(tables)),
+        None => free::motion(scene, polhode.as_ref(), Preparation::default()),
     }
 }
 
@@ -191,7 +189,7 @@ fn by_theory(scene: Scene, tables: &SeriesTables) -> Result<Motion, Error> {
 fn beyond_theory(scene: &Scene) -> Option<String> {
     match scene.asked_disturbing() {
         _ if !scene.asked_torques().is_empty() => Some("a torque beside the gravity gradient is integrated".to_owned()),
-        [_, ..] if scene.body().gravity().is_some() => {
+        [_, ..] if scene.body().gravity().is_some_and(Gravity::acts) => {
             Some("a gravity field of degree 3 or 4 is integrated".to_owned())
         }
         _ if scene.body().is_sphere() => None,
@@ -230,8 +228,8 @@ fn may_be_integrated(scene: &Scene) -> bool {
 
 /// The theory where it meets the tolerance, else the integration where that does, else the theory: it costs less, and the plan says how near the integration
 /// would come. For several bodies and for orbits that precess the smaller error bound decides instead.
-fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Choice, Error> {
-    let by_theory = match by_theory(scene.clone(), tables) {
+fn cheapest(scene: Scene, stop: &AtomicBool) -> Result<Choice, Error> {
+    let by_theory = match by_theory(scene.clone()) {
         Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion.into()),
         Err(error) if error.kind() != Kind::Theory => return Err(error),
         by_theory => by_theory,
@@ -239,7 +237,7 @@ fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Ch
     let prospect = prospect(&scene);
     let mut locked = None;
     if prospect.is_none_or(|(_, steps)| steps > STEPS_OF_A_FORM) {
-        match libration::serving(&scene, tables, stop)? {
+        match libration::serving(&scene, stop)? {
             Ok(motion) => return Ok(motion.into()),
             Err(reason) => locked = reason.map(|reason| format!("libration: {reason}")),
         }

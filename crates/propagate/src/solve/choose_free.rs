@@ -4,11 +4,10 @@ use std::sync::atomic::AtomicBool;
 
 use super::free::{self, Preparation};
 use crate::error::Error;
-use crate::input::options::Method;
+use crate::input::options::{Method, Served};
 use crate::input::scene::Scene;
 use crate::motion::solved::Motion;
 use crate::torque_free::polhode::Polhode;
-use crate::torque_free::series::tables::SeriesTables;
 
 impl Scene {
     /// Whether the scene is integrated without an attempt by theory: never, without the feature `torques`.
@@ -28,7 +27,7 @@ impl Scene {
 ///
 /// # Errors
 /// [`Error::NotBuilt`] for a scene with a torque or with a method that is not built, and those of the free motion.
-pub(super) fn motion(scene: Scene, tables: &SeriesTables, _: &AtomicBool) -> Result<Motion, Error> {
+pub(super) fn motion(scene: Scene, _: &AtomicBool) -> Result<Motion, Error> {
     let method = scene.asked_method();
     if matches!(method, Method::Integrated | Method::Libration) {
         return Err(Error::NotBuilt { argument: "method", value: method.to_string() });
@@ -41,11 +40,10 @@ pub(super) fn motion(scene: Scene, tables: &SeriesTables, _: &AtomicBool) -> Res
         return Err(Error::NotBuilt { argument: "torques", value: torque.kind().to_owned() });
     }
     let polhode = Polhode::of(&scene);
-    free::motion(scene, polhode.as_ref(), Preparation::new(tables))
+    free::motion(scene, polhode.as_ref(), Preparation::default())
 }
 
 /// The motions of several scenes about principal axes.
-pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, stop: &AtomicBool) -> Vec<Result<Motion, Error>> {
-    let tables = SeriesTables::default();
-    scenes.into_iter().map(|scene| scene.and_then(|scene| motion(scene, &tables, stop))).collect()
+pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, _: Served, stop: &AtomicBool) -> Vec<Result<Motion, Error>> {
+    scenes.into_iter().map(|scene| scene.and_then(|scene| motion(scene, stop))).collect()
 }

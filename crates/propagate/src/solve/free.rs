@@ -17,15 +17,13 @@ use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::{Polhode, UserFrame};
 use crate::torque_free::separatrix::Passage;
 use crate::torque_free::series::solution::by_the_series;
-use crate::torque_free::series::tables::SeriesTables;
 use crate::torque_free::solution::{CayleyKlein, Solution, by_theta_functions, on_the_separatrix};
 use crate::torque_free::steady::SteadyRotation;
 use crate::torque_free::wobble::{Wobble, WobbleEvaluator};
 
-/// Tables and frequencies that are known before a scene is solved, and whether its plan has remarks.
+/// Frequencies that are known before a scene is solved, and whether its plan has remarks.
 #[derive(Clone, Copy)]
-pub(crate) struct Preparation<'a> {
-    pub(crate) tables: &'a SeriesTables,
+pub(crate) struct Preparation {
     /// The frequencies, if they are computed already.
     pub(crate) secular: Option<Secular>,
     /// Whether the plan says what was skipped.
@@ -36,7 +34,7 @@ pub(crate) struct Preparation<'a> {
 ///
 /// # Errors
 /// [`Error::Units`], and those of the series.
-pub(crate) fn motion(scene: Scene, polhode: Option<&Polhode>, preparation: Preparation<'_>) -> Result<Motion, Error> {
+pub(crate) fn motion(scene: Scene, polhode: Option<&Polhode>, preparation: Preparation) -> Result<Motion, Error> {
     let Some(polhode) = polhode else {
         let mut motion = at_rest(scene);
         remark_unused(&mut motion);
@@ -55,10 +53,10 @@ pub(crate) fn motion(scene: Scene, polhode: Option<&Polhode>, preparation: Prepa
     solved
 }
 
-impl<'a> Preparation<'a> {
-    /// Tables alone are known, and the plan has remarks.
-    pub(crate) fn new(tables: &'a SeriesTables) -> Self {
-        Self { tables, secular: None, remarks: true }
+impl Default for Preparation {
+    /// Nothing is known, and the plan has remarks.
+    fn default() -> Self {
+        Self { secular: None, remarks: true }
     }
 }
 
@@ -117,8 +115,8 @@ fn steadily_rotating(scene: Scene, polhode: &Polhode, mode: Mode) -> Motion {
 }
 
 /// The motion of a wobbling body, or of one on the separatrix.
-fn wobbling(scene: Scene, preparation: Preparation<'_>, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
-    let Preparation { tables, secular, remarks } = preparation;
+fn wobbling(scene: Scene, preparation: Preparation, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
+    let Preparation { secular, remarks } = preparation;
     if mode == Mode::Separatrix {
         return match scene.asked_method() {
             Method::Series => Err(Error::Separatrix),
@@ -138,7 +136,7 @@ fn wobbling(scene: Scene, preparation: Preparation<'_>, polhode: &Polhode, mode:
         Method::Auto => scene.asked_order().is_some() && mode != Mode::Axisymmetric,
     };
     let solution = if by_series {
-        by_the_series((&scene, tables), polhode, exact, ratio, mode)?
+        by_the_series(&scene, polhode, exact, ratio, mode)?
     } else {
         by_theta_functions((&scene, remarks), polhode, exact, ratio, mode)
     };
@@ -151,7 +149,7 @@ fn wobbling(scene: Scene, preparation: Preparation<'_>, polhode: &Polhode, mode:
 
 /// The motion of a wobbling body by the closed form, with every harmonic above rounding. Derivatives are those of this motion.
 pub(crate) fn untruncated(scene: &Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
-    let preparation = Preparation { tables: &SeriesTables::default(), secular: None, remarks: false };
+    let preparation = Preparation { secular: None, remarks: false };
     wobbling(scene.clone().method(Method::Closed).tolerance(0.0), preparation, polhode, mode)
 }
 
@@ -220,5 +218,5 @@ pub(crate) fn unused_order(scene: &Scene) -> Option<String> {
 pub(crate) fn solved(moments: [f64; 3], state: State) -> Motion {
     let scene = Scene::new(Body::new(moments).expect("a body"), state);
     let polhode = Polhode::new(scene.body(), scene.state());
-    motion(scene, polhode.as_ref(), Preparation::new(&SeriesTables::default())).expect("a motion")
+    motion(scene, polhode.as_ref(), Preparation::default()).expect("a motion")
 }

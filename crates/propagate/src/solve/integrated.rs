@@ -13,21 +13,15 @@ use crate::motion::plan::Plan;
 use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
 use crate::torque_free::polhode::Polhode;
-use crate::torque_free::series::tables::SeriesTables;
 
 /// The motion by integration over the span; mode and frequencies are those of the free motion at the epoch.
 ///
 /// # Errors
 /// Those of the integration.
-pub(super) fn motion(
-    scene: Scene,
-    tables: &SeriesTables,
-    reason: String,
-    found: Result<Integrated, Error>,
-) -> Result<Motion, Error> {
+pub(super) fn motion(scene: Scene, reason: String, found: Result<Integrated, Error>) -> Result<Motion, Error> {
     let unforced = Scene::new(scene.body().clone(), *scene.state());
     let polhode = Polhode::new(unforced.body(), unforced.state());
-    let free = free::motion(unforced, polhode.as_ref(), Preparation::new(tables))?;
+    let free = free::motion(unforced, polhode.as_ref(), Preparation::default())?;
     let motion = found.map_err(|error| match error {
         Error::TooManySteps { steps, bound, .. } => Error::TooManySteps { steps, bound, reason: reason.clone() },
         error => error,
@@ -37,7 +31,7 @@ pub(super) fn motion(
     plan.method = Method::Integrated;
     plan.order = motion.order();
     plan.fastest = plan.fastest.max(motion.fastest());
-    plan.integration = Some(motion.plan());
+    plan.integration = Some(motion.plan(scene.state().epoch));
     plan.skipped.extend(Some(reason).filter(|reason| !reason.is_empty()));
     if let Some(order) = scene.asked_order() {
         plan.skipped.push(format!("order {order}, which was asked for: it is one of the series"));

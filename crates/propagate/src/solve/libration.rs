@@ -22,7 +22,6 @@ use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
 use crate::torque_free::error_budget::DEFAULT_ROTATIONS;
 use crate::torque_free::polhode::Polhode;
-use crate::torque_free::series::tables::SeriesTables;
 
 /// Orbits over which a motion is compared with an integration, at most the span. The first number is for motions on a fixed orbit that meet their tolerance. The second is for all
 /// others: the slow phases of a precessing orbit take hundreds of orbits, and a series that misses its tolerance can lack the terms of a resonance, which its estimate does not see.
@@ -38,13 +37,13 @@ const FINEST: f64 = 1e-12;
 ///
 /// # Errors
 /// [`Error::NoLibration`] with the reason, and [`Error::Stopped`].
-pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
+pub(super) fn motion(scene: Scene, stop: &AtomicBool) -> Result<Motion, Error> {
     let lock = Lock::new(&scene).map_err(|reason| Error::NoLibration { reason })?;
-    of_lock(scene, lock, tables, stop)
+    of_lock(scene, lock, stop)
 }
 
 /// The libration of a scene with its lock. Mode and frequencies are those of the free motion at the epoch.
-fn of_lock(scene: Scene, lock: Lock, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
+fn of_lock(scene: Scene, lock: Lock, stop: &AtomicBool) -> Result<Motion, Error> {
     let no = |reason| Error::NoLibration { reason };
     let (n, epoch, precesses) = (lock.mean_motion, scene.state().epoch, lock.half_node.is_some());
     let far = DEFAULT_ROTATIONS * TAU;
@@ -56,7 +55,7 @@ fn of_lock(scene: Scene, lock: Lock, tables: &SeriesTables, stop: &AtomicBool) -
     let libration = solution::solved(lock, &wanted, stop)?.map_err(no)?;
     let unforced = Scene::new(scene.body().clone(), *scene.state());
     let polhode = Polhode::new(unforced.body(), unforced.state());
-    let free = free::motion(unforced, polhode.as_ref(), Preparation::new(tables))?;
+    let free = free::motion(unforced, polhode.as_ref(), Preparation::default())?;
     let mut plan = Plan::new(&scene, free.plan.mode, free.plan.separatrix_ratio, libration.error());
     plan.verification = verification_cost(&scene);
     plan.method = Method::Libration;
@@ -123,17 +122,13 @@ fn rotation(attitude: [f64; 4]) -> UnitQuaternion<f64> {
 ///
 /// # Errors
 /// [`Error::Stopped`].
-pub(super) fn serving(
-    scene: &Scene,
-    tables: &SeriesTables,
-    stop: &AtomicBool,
-) -> Result<Result<Motion, Option<String>>, Error> {
+pub(super) fn serving(scene: &Scene, stop: &AtomicBool) -> Result<Result<Motion, Option<String>>, Error> {
     let Ok(lock) = Lock::new(scene) else { return Ok(Err(None)) };
     let why = |motion: &Motion| {
         let bound = bound_in_words(motion.plan.error_bound);
         motion.libration().map(|libration| format!("its error bound is {bound}; {}", libration.limit()))
     };
-    Ok(match of_lock(scene.clone(), lock, tables, stop) {
+    Ok(match of_lock(scene.clone(), lock, stop) {
         Err(Error::Stopped) => return Err(Error::Stopped),
         Err(Error::NoLibration { reason }) => Err(Some(reason)),
         Err(error) => Err(Some(in_ascii(&error.to_string()))),

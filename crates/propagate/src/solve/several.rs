@@ -8,12 +8,10 @@ use crate::motion::solved::Motion;
 use crate::torque_free::frequencies::Secular;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
-use crate::torque_free::series::tables::SeriesTables;
 
 /// Calls `each` with the motions of at most as many valid scenes as the widest vectors have lanes, each to the bits of [`Scene::solve`]. The plans of free
 /// motions have no remarks. A motion has some hundreds of bytes: it is used where it was made and not copied.
 pub(crate) fn several(scenes: Vec<Result<Scene, Error>>, mut each: impl FnMut(&Result<Motion, Error>)) {
-    let tables = SeriesTables::default();
     let free: Vec<&Scene> = scenes.iter().flatten().filter(|scene| is_free(scene)).collect();
     let polhodes = Polhode::several(&free);
     let frequencies = Secular::several(&polhodes.iter().flatten().filter(wobbles).collect::<Vec<_>>());
@@ -23,7 +21,7 @@ pub(crate) fn several(scenes: Vec<Result<Scene, Error>>, mut each: impl FnMut(&R
             Ok(scene) if is_free(&scene) => {
                 let polhode = polhodes.next().and_then(Option::as_ref);
                 let secular = polhode.filter(wobbles).and_then(|_| frequencies.next());
-                free::motion(scene, polhode, Preparation { tables: &tables, secular, remarks: false })
+                free::motion(scene, polhode, Preparation { secular, remarks: false })
             }
             Ok(scene) => scene.solve(),
             Err(error) => Err(error),

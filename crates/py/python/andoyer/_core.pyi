@@ -47,7 +47,7 @@ class TheoryError(Error):
     """No theory holds: series near the separatrix, a spin resonance, a torque that is too strong, a motion that cannot be averaged, a small divisor, or a Hamiltonian that cannot be diagonalized."""
 
 class ToleranceWarning(UserWarning):
-    """The error bound of a motion, or of members of an ensemble, exceeds the tolerance over the span."""
+    """The error bound of a motion, or of members of an ensemble, exceeds the tolerance over the span, or that of an evolution a tenth of its angular momentum."""
 
 @final
 class Body:
@@ -589,6 +589,9 @@ class Plan:
     def resonance(self) -> Fraction | None:
         """The resonance of a libration, in rotations an orbit: a Fraction; None for the other methods."""
     @property
+    def known(self) -> tuple[float, float] | None:
+        """The first and the last time at which something is known of the attitude, of a member of an ensemble with ``errors="nan"`` that is not served over its whole span; otherwise None."""
+    @property
     def harmonics(self) -> int:
         """The number of harmonics of a libration; otherwise the highest multiple of the anomaly ℓ′ in the evaluation, or 0 if the method has no harmonics."""
     @property
@@ -760,7 +763,7 @@ class Evolution:
         """Why and when it ends."""
     @property
     def plan(self) -> EvolutionPlan:
-        """What is known of its error; each call integrates the full equations over thirty rotations."""
+        """What is known of its error; each call integrates the full equations over thirty rotations. A `ToleranceWarning` names an error bound above a tenth of the angular momentum."""
     @property
     def members(self) -> list[EvolutionEnd]:
         """The ends of the members that `evolve` was asked for: the same momentum and energy at the epoch with evenly spread phases."""
@@ -800,6 +803,9 @@ class EvolutionPlan:
     @property
     def error_bound(self) -> float:
         """Estimated error of the angular momentum at the farther end, over its size at the epoch: the rate of second order times the time, the truncation times the change, and the jumps of `resonances`."""
+    @property
+    def large_error(self) -> str | None:
+        """The text of the `ToleranceWarning` if the error bound is above a tenth, otherwise None."""
     @property
     def truncation(self) -> float:
         """What the polynomials of shapes leave out, relative to the torque."""
@@ -986,7 +992,7 @@ class Ensemble:
     @property
     def level(self) -> str | None:
         """The level asked for: "auto", "full", "second-order", "moving" or "paper"; None where members of `from_scenes` differ."""
-    def at(self, times: ArrayLike, *, scalar_first: bool = False) -> Samples:
+    def at(self, times: ArrayLike, *, scalar_first: bool = False, progress: Callable[[int, int], object] | None = None) -> Samples:
         """Evaluates attitudes and angular velocities of all members in one pass."""
     def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:
         """Evaluates attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones."""

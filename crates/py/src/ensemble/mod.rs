@@ -1,6 +1,6 @@
 //! `andoyer.Ensemble`.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicUsize};
 
 use andoyer_propagate::ensemble::{MAX_THREADS, OnError};
 use andoyer_propagate::error::Kind;
@@ -20,6 +20,7 @@ use crate::members::Members;
 use crate::order::whole_number;
 use crate::partials::Partials;
 use crate::plan::Plan;
+use crate::progress::counted;
 use crate::samples::Samples;
 use crate::scene_class::Scene;
 use crate::torque;
@@ -276,6 +277,8 @@ impl Ensemble {
     ///     Times for all members, or a row of times for each member.
     /// scalar_first : bool, optional
     ///     If True, quaternions are [w, x, y, z]; by default [x, y, z, w].
+    /// progress : callable, optional
+    ///     Called as ``progress(done, members)`` while members are solved and evaluated, some times a second. An exception in it stops the evaluation and is raised to the caller.
     ///
     /// Returns
     /// -------
@@ -293,20 +296,30 @@ impl Ensemble {
     ///     Errors of times as for a motion and of units as for a scene; the attribute ``index`` is the first member with the error.
     /// InputError
     ///     Another number of rows than members.
-    #[pyo3(signature = (times, *, scalar_first=false))]
-    fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>, scalar_first: bool) -> PyResult<Samples> {
+    #[pyo3(signature = (times, *, scalar_first=false, progress=None))]
+    fn at(
+        &self,
+        py: Python<'_>,
+        times: &Bound<'_, PyAny>,
+        scalar_first: bool,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Samples> {
         let times = self.times(times)?;
         let since_epoch = times.since_epoch();
         let [copy, attitude, rates] = times.samples()?;
         let outcome = {
             let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
             let (values, attitude, rates) = (times.values()?, chunks(&mut attitude)?, chunks(&mut rates)?);
+            let done = AtomicUsize::new(0);
             let evaluate = |stop: &AtomicBool| {
-                let outcome = self.run(since_epoch, stop).samples_into(values, attitude, rates)?;
+                let outcome = self.run(since_epoch, stop).counting(&done).samples_into(values, attitude, rates)?;
                 foreign::scalar_first(attitude, scalar_first, stop);
                 Ok(outcome)
             };
-            interruptible(py, times.long(), error::propagation, evaluate)?
+            match progress {
+                Some(progress) => counted(progress, (&done, self.0.len()), evaluate)?,
+                None => interruptible(py, times.long(), error::propagation, evaluate)?,
+            }
         };
         error::warn_of_tolerance(py, outcome.missed_tolerance())?;
         let samples = Samples::new(copy.unbind(), attitude.unbind(), rates.unbind(), scalar_first);

@@ -1,7 +1,7 @@
 //! The order of the series: the lowest one whose truncation error meets its share of the tolerance. A first estimate needs no expansion (theory §5).
 
 use super::composition::{WobbleEllipse, oscillator_and_longitude};
-use super::tables::{FourierExpansion, SeriesTables};
+use super::tables::{FourierExpansion, reaching};
 use crate::error::Error;
 use crate::input::options::MAX_ORDER;
 use crate::input::scene::Scene;
@@ -38,7 +38,7 @@ pub(crate) struct Expanded {
 /// # Errors
 /// - [`Error::NearSeparatrix`] if no order meets it.
 pub(crate) fn expanded(
-    (scene, tables): (&Scene, &SeriesTables),
+    scene: &Scene,
     polhode: &Polhode,
     exact: &Secular,
     ratio: f64,
@@ -51,7 +51,7 @@ pub(crate) fn expanded(
         _ => first_order(ratio, target),
     };
     for order in first.unwrap_or(MAX_ORDER)..=MAX_ORDER {
-        let tables = tables.reaching(order, polhode.precise_beta())?;
+        let tables = reaching(order, polhode.precise_beta())?;
         let fixed = mode != Mode::Axisymmetric && scene.asked_order().is_some();
         let secular = if fixed { Secular::truncated(polhode, tables.polynomials(order)?) } else { *exact };
         let expansion = tables.expand(order, secular.kappa_sigma, polhode.invariants.kappa);

@@ -2,7 +2,6 @@
 
 use super::composition::{harmonics, oscillator_and_longitude};
 use super::order::{Expanded, expanded, initial_anomaly};
-use super::tables::SeriesTables;
 use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::numerics::phase::Phase;
@@ -19,13 +18,13 @@ use crate::torque_free::solution::{CayleyKlein, HARMONICS_SHARE, Solution, dropp
 /// # Errors
 /// - [`Error::NearSeparatrix`] if no order meets the tolerance.
 pub(crate) fn by_the_series(
-    (scene, tables): (&Scene, &SeriesTables),
+    scene: &Scene,
     polhode: &Polhode,
     exact: Secular,
     ratio: f64,
     mode: Mode,
 ) -> Result<Solution, Error> {
-    let expanded = expanded((scene, tables), polhode, &exact, ratio, mode)?;
+    let expanded = expanded(scene, polhode, &exact, ratio, mode)?;
     let Expanded { order, expansion, secular, ellipse, truncation } = expanded;
     let (series, dropped) = harmonics(&expansion, ellipse).truncated(HARMONICS_SHARE * scene.asked_tolerance());
     let theta = polhode.invariants.theta;

@@ -4,17 +4,21 @@
 //! harmonics of a form are w^j w̄^k → e^(i(j−k)ℓ′). Sums run from the lowest order to the highest.
 //!
 //! An order is computed from lower orders only. Tables truncated to an order therefore have the same bits as tables computed to that order, and the tables of
-//! one scene serve all later scenes of the body ([`SeriesTables`]).
+//! one scene serve all later scenes of the body ([`reaching`]).
 
-use std::collections::HashMap;
-use std::fmt;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 use andoyer_double::DoubleDouble;
 use andoyer_series::NumericNormalForm;
 use andoyer_series::forms::Form;
 
 use crate::error::Error;
+use crate::numerics::kept::{Goes, Keep, Kept};
+
+/// The largest memory of the tables that a process keeps \[bytes\].
+const MOST_MEMORY: usize = 64 << 20;
+/// The longest tables of this process for each β, by its bits.
+static TABLES: LazyLock<Kept<[u64; 2], Tables>> = LazyLock::new(|| Kept::new(MOST_MEMORY, Goes::Oldest));
 
 /// The series of one body: forms and triaxiality polynomials at its β, orders 0 to N.
 #[derive(Clone, Debug)]
@@ -99,37 +103,18 @@ impl Tables {
     }
 }
 
-/// Tables of the perturbation series, which several scenes can share ([`Scene::solve_with`](crate::Scene::solve_with)).
-///
-/// There is one table for each β, and each mode of a body has its own β. Clones share their tables. The contents affect only the time of a solution.
-#[derive(Clone, Default)]
-pub struct SeriesTables(Arc<Mutex<HashMap<[u64; 2], Slot>>>);
-
-/// The longest table computed for one β.
-type Slot = Arc<Mutex<Option<Arc<Tables>>>>;
-
-impl SeriesTables {
-    /// The tables of β to at least `order`. If another thread is computing them, this thread waits.
-    pub(crate) fn reaching(&self, order: usize, beta: DoubleDouble) -> Result<Arc<Tables>, Error> {
-        // If another thread panicked, the earlier tables are still valid.
-        let slot = {
-            let mut slots = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-            Arc::clone(slots.entry([beta.high, beta.low].map(f64::to_bits)).or_default())
-        };
-        let mut slot = slot.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(tables) = slot.as_ref().filter(|tables| tables.order() >= order) {
-            return Ok(Arc::clone(tables));
-        }
-        let tables = Arc::new(Tables::new(beta, order)?);
-        *slot = Some(Arc::clone(&tables));
-        Ok(tables)
+impl Keep for Tables {
+    fn memory(&self) -> usize {
+        let forms = self.oscillator.iter().chain(&self.longitude);
+        let numbers: usize = forms.map(|form| form.coefficients().len()).sum();
+        size_of::<Self>() + numbers * size_of::<f64>() + (self.order() + 1) * size_of::<DoubleDouble>()
     }
 }
 
-impl fmt::Debug for SeriesTables {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("SeriesTables")
-    }
+/// The tables of β to at least `order`. Each mode of a body has its own β. If another thread is computing them, this thread waits.
+pub(crate) fn reaching(order: usize, beta: DoubleDouble) -> Result<Arc<Tables>, Error> {
+    let key = [beta.high, beta.low].map(f64::to_bits);
+    TABLES.of(key, |tables| tables.order() >= order, || Tables::new(beta, order))
 }
 
 #[cfg(test)]
@@ -152,23 +137,19 @@ mod tests {
 
     #[test]
     fn tables_are_computed_once_for_a_body_and_again_only_for_a_higher_order() {
-        let (shared, beta) = (SeriesTables::default(), 0.5.into());
-        let ask = |tables: &SeriesTables, order| tables.reaching(order, beta).expect("tables");
-        let first = ask(&shared, 8);
-        assert!([8, 5].iter().all(|&order| Arc::ptr_eq(&first, &ask(&shared.clone(), order))));
-        let higher = ask(&shared, 9);
+        let ask = |order| reaching(order, DoubleDouble::sum(0.5, 1e-20)).expect("tables");
+        let first = ask(8);
+        assert!([8, 5].iter().all(|&order| Arc::ptr_eq(&first, &ask(order))));
+        let higher = ask(9);
         assert!(!Arc::ptr_eq(&first, &higher) && higher.order() >= 9);
-        assert!(Arc::ptr_eq(&higher, &ask(&shared, 8)));
+        assert!(Arc::ptr_eq(&higher, &ask(8)));
     }
 
     #[test]
     fn each_beta_has_tables_of_its_own_to_its_last_digit() {
-        let shared = SeriesTables::default();
-        let short = shared.reaching(4, 0.25.into()).expect("tables");
-        let long = shared.reaching(4, 0.75.into()).expect("tables");
-        let beside = shared.reaching(4, DoubleDouble::sum(0.25, 1e-25)).expect("tables");
+        let [short, long] = [0.25, 0.75].map(|beta| reaching(4, beta.into()).expect("tables"));
+        let beside = reaching(4, DoubleDouble::sum(0.25, 1e-25)).expect("tables");
         assert_ne!(short.oscillator, long.oscillator);
         assert_ne!(short.polynomials(4).expect("a β"), beside.polynomials(4).expect("a β"));
-        assert!(Arc::ptr_eq(&short, &shared.reaching(4, 0.25.into()).expect("tables")));
     }
 }

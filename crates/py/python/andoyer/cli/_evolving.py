@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -34,7 +35,7 @@ def add_command(command: argparse.ArgumentParser) -> None:
 
 
 def evolve(arguments: argparse.Namespace) -> int:
-    """Write the evolution of a scene. The reason for an end before the last time is printed on stderr."""
+    """Write the evolution of a scene. The reason for an end before the last time, and a large error, are printed on stderr."""
     scene, path = read_scene(arguments.scene), Path(arguments.output)
     ending = path.suffix.lower()
     if arguments.output != "-" and ending not in (".csv", *PICTURES):
@@ -47,7 +48,10 @@ def evolve(arguments: argparse.Namespace) -> int:
     start = first if arguments.start is None else arguments.start
     stop = last if arguments.stop is None else arguments.stop
     try:
-        evolution = scene.evolve((start, stop), average=arguments.average)
+        with warnings.catch_warnings():
+            # `doubt` says it in one line.
+            warnings.simplefilter("ignore", andoyer.ToleranceWarning)
+            evolution = scene.evolve((start, stop), average=arguments.average)
     except andoyer.Error as error:
         raise InputError(f"{arguments.scene}: {error}") from error
     if ending in PICTURES:
@@ -62,7 +66,20 @@ def evolve(arguments: argparse.Namespace) -> int:
             temporary.write_text(table(evolution, arguments.samples), encoding="ascii", newline="\n")
     if evolution.end.reason != "span":
         print(f"andoyer: note: the evolution ends at {evolution.end.time!r}: {evolution.end.reason}", file=sys.stderr)
+    doubtful = doubt(evolution)
+    if doubtful is not None:
+        print(f"andoyer: warning: {doubtful}", file=sys.stderr)
     return 0
+
+
+def doubt(evolution: andoyer.Evolution) -> str | None:
+    """What is to be said of its error: that it is large, or why it is unknown."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", andoyer.ToleranceWarning)
+        try:
+            return evolution.plan.large_error
+        except andoyer.Error as error:
+            return f"the error of the evolution is unknown: {error}"
 
 
 def table(evolution: andoyer.Evolution, samples: int) -> str:
