@@ -508,7 +508,7 @@ function controls() {
 async function start() {
   try {
     library = await import("./andoyer_playground.js");
-    await library.default();
+    await library.default({ module_or_path: new URL("./andoyer_playground_bg.wasm", import.meta.url) });
   } catch (error) {
     refuse(`The library is not beside this page (${error.message}). "make playground" builds it into target/playground; a browser loads it from a server only: python -m http.server.`);
     throw error;

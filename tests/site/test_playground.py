@@ -24,7 +24,7 @@ MOST_BYTES = 1_200_000
 
 ULP = 2.0**-52
 PRESETS = ["flip", "apophis", "boom", "moon"]
-FREE = {"flip": 64, "apophis": 64}
+FREE = {"flip": 4, "apophis": 4}
 """The largest difference between components of the attitude here and there, in units of 2^-52; motions under a torque are held to their error bounds."""
 
 
