@@ -9,7 +9,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves verdicts libration-cost libration-reach nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-ephemeris rivals-messages gravity docs docs-test package release release-check wheel clean kernels
+.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves verdicts libration-cost libration-reach nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-ephemeris rivals-messages gravity docs docs-test package release release-check wheel clean kernels playground playground-test
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -268,6 +268,12 @@ docs: $(VENV)/documented $(VENV)/tested  ## the site in target/site, the Rust do
 docs-test: docs  ## the pages as files, and in a headless Chromium of this machine (Debian: apt-get install chromium)
 	$(BIN)/python -m pytest -q tests/site
 
+playground:  ## the playground of the site in target/playground, which `make docs` then copies; rustup adds WebAssembly, cargo the command wasm-bindgen, if they are not there
+	$(PYTHON) crates/playground/build.py
+
+playground-test: playground $(VENV)/documented $(VENV)/tested  ## the playground in a headless Chromium, against the installed library: presets, flips, bits; sizes and frames are printed
+	$(BIN)/python -m pytest -q -s tests/site/test_playground.py
+
 $(VENV)/documented: docs/requirements.txt $(VENV)/installed
 	$(INSTALL) --requirement $<
 	touch $@
@@ -309,7 +315,7 @@ release-check: package  ## versions, addresses and licences agree; public Rust n
 wheel: $(VENV)/installed
 
 # The wheel is rebuilt when any source of it is newer than the installation: tests and the caches of tools are none.
-SOURCES := Cargo.toml Cargo.lock README.md $(shell find crates \( -name '.*' -o -name tests \) -prune -o \( -name '*.rs' -o -name '*.py' -o -name '*.pyi' -o -name '*.toml' -o -name '*.md' \) -print)
+SOURCES := Cargo.toml Cargo.lock README.md $(shell find crates \( -name '.*' -o -name tests -o -name playground \) -prune -o \( -name '*.rs' -o -name '*.py' -o -name '*.pyi' -o -name '*.toml' -o -name '*.md' \) -print)
 $(VENV)/installed: $(VENV)/ready $(SOURCES)
 	rm -rf $(WHEELS)
 	$(BIN)/maturin build --release --locked --quiet --manifest-path crates/py/Cargo.toml --interpreter $(BIN)/python --out $(WHEELS)

@@ -26,7 +26,7 @@ extensions = [
     "measured",
     "unbroken",
 ]
-exclude_patterns = ["_ext", "requirements.txt", "gallery/*.ipynb", "gallery/*.py", "**/sg_execution_times.rst", "sg_execution_times.rst"]
+exclude_patterns = ["_ext", "playground", "requirements.txt", "gallery/*.ipynb", "gallery/*.py", "**/sg_execution_times.rst", "sg_execution_times.rst"]
 default_role = "py:obj"
 
 myst_enable_extensions = ["dollarmath", "colon_fence"]
@@ -39,6 +39,10 @@ html_math_renderer = "mathml"
 html_static_path = ["_static"]
 html_favicon = "_static/favicon.svg"
 html_css_files = ["site.css"]
+PLAYGROUND = DOCS.parent / "target" / "playground"
+if PLAYGROUND.exists():
+    tags.add("playground")  # noqa: F821  # Sphinx defines it
+    html_extra_path = [str(PLAYGROUND)]
 html_show_sourcelink = False
 html_copy_source = False
 

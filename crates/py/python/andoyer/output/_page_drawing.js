@@ -1,9 +1,7 @@
-const data = JSON.parse(document.getElementById("data").textContent);
+let data = JSON.parse(document.getElementById("data").textContent);
 const canvas = document.getElementById("canvas"), context = canvas.getContext("2d");
 const slider = document.getElementById("time"), play = document.getElementById("play"), speed = document.getElementById("speed");
 const box = document.getElementById("turn");
-document.getElementById("orbit").hidden = !data.orbit;
-box.checked = Boolean(data.orbit);
 
 // Vectors and quaternions [x, y, z, w].
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -46,8 +44,7 @@ function against(s) {
 }
 
 // The view: inertial components with the first angular momentum upwards, then turned by the reader.
-const first = state(data.start), up = unit(first.inertialMomentum);
-const east = unit(Math.abs(up[2]) < 0.9 ? cross([0, 0, 1], up) : cross([1, 0, 0], up)), north = cross(up, east);
+let up, east, north;
 const home = { yaw: 0.6, pitch: 0.35, zoom: 1 };
 let view = { ...home }, turn = null;  // turn: the orbital frame that the view keeps at rest, its axis 3 (to the primary) downwards
 function project(v) {
@@ -72,14 +69,11 @@ function ellipsoid(semiaxes) {
   }
   return { vertices, faces };
 }
-const body = data.mesh || ellipsoid(data.semiaxes);
-const radius = Math.max(...body.vertices.map(size));
-const octant = body.faces.map(face => { const c = face.reduce((sum, k) => plus(sum, body.vertices[k]), [0, 0, 0]); return data.axes.reduce((sign, axis) => sign * Math.sign(dot(axis, c)), 1) > 0; });
+let body, radius, octant;
 
 // Curves: the polhode, path of the angular velocity in the body; the herpolhode, its path among the stars, of which the last two rotations are drawn. One rolls on the other.
-const fastest = data.largestRate > 0 ? data.largestRate : 1, reach = 1.35 * radius / fastest;
-const polhode = [], rotation = (data.stop - data.start) / Math.max(data.rotations, 1), trailed = 120;
-for (let k = 0; k <= 500; k++) polhode.push(scaled(reach, state(data.start + (data.polhodeStop - data.start) * k / 500).rates));
+const trailed = 120;
+let reach, polhode, rotation;
 function herpolhode(t) {
   const from = Math.max(data.start, t - 2 * rotation), points = [];
   for (let k = 0; k <= trailed; k++) points.push(scaled(reach, state(from + (t - from) * k / trailed).inertialRates));
@@ -198,8 +192,6 @@ function rowOf(table, name, value) {
   return cell;
 }
 const cells = {};
-for (const name of ["t", ...(data.orbit ? ["roll", "pitch", "yaw"] : []), "J", "λ", "μ", "ν", "Λ/M", "N/M", "ω₁", "ω₂", "ω₃"]) cells[name] = rowOf("now", name, "");
-for (const [name, value] of data.facts) rowOf("facts", name, value);
 for (const [color, what] of [...COLORS.axes.map((color, k) => [color, `body axis ${k + 1}`]), [COLORS.momentum, "angular momentum M"], [COLORS.rate, "angular velocity ω; herpolhode"], [COLORS.polhode, "polhode"]]) {
   const key = document.createElement("span");
   key.className = "key";
@@ -217,9 +209,7 @@ function numbers(s) {
 }
 
 // Time runs; everything is a function of it.
-let time = data.start, playing = true, before = null;
-slider.min = String(data.start);
-slider.max = String(data.stop);
+let time, playing = true, before = null;
 for (const seconds of [10, 30, 60, 120, 300]) speed.add(new Option(`whole in ${seconds} s`, String(seconds), seconds === 60, seconds === 60));
 function tick(clock) {
   if (playing && before !== null) {
@@ -260,7 +250,32 @@ canvas.onkeydown = event => {
 };
 window.addEventListener("resize", () => draw(time));
 
-// For scripts: the state and the Andoyer variables at a time, and a moment that is held.
-window.andoyer = { evaluate, state, variables: t => variables(state(t)), against: t => against(state(t)), show: t => { run(false); time = t; draw(t); } };
-draw(time);
+// What depends on the motion: the view, the body, the curves, the rows of the tables, the ends of the slider.
+function load(next) {
+  data = next;
+  document.getElementById("orbit").hidden = !data.orbit;
+  box.checked = Boolean(data.orbit);
+  up = unit(state(data.start).inertialMomentum);
+  east = unit(Math.abs(up[2]) < 0.9 ? cross([0, 0, 1], up) : cross([1, 0, 0], up));
+  north = cross(up, east);
+  body = data.mesh || ellipsoid(data.semiaxes);
+  radius = Math.max(...body.vertices.map(size));
+  octant = body.faces.map(face => { const c = face.reduce((sum, k) => plus(sum, body.vertices[k]), [0, 0, 0]); return data.axes.reduce((sign, axis) => sign * Math.sign(dot(axis, c)), 1) > 0; });
+  reach = 1.35 * radius / (data.largestRate > 0 ? data.largestRate : 1);
+  rotation = (data.stop - data.start) / Math.max(data.rotations, 1);
+  polhode = [];
+  for (let k = 0; k <= 500; k++) polhode.push(scaled(reach, state(data.start + (data.polhodeStop - data.start) * k / 500).rates));
+  for (const table of ["now", "facts"]) for (const row of [...document.getElementById(table).rows]) row.remove();
+  for (const name in cells) delete cells[name];
+  for (const name of ["t", ...(data.orbit ? ["roll", "pitch", "yaw"] : []), "J", "λ", "μ", "ν", "Λ/M", "N/M", "ω₁", "ω₂", "ω₃"]) cells[name] = rowOf("now", name, "");
+  for (const [name, value] of data.facts) rowOf("facts", name, value);
+  slider.min = String(data.start);
+  slider.max = String(data.stop);
+  time = data.start;
+  draw(time);
+}
+
+// For scripts: another motion, the state and the Andoyer variables at a time, and a moment that is held.
+window.andoyer = { evaluate, load, now: () => time, state, variables: t => variables(state(t)), against: t => against(state(t)), show: t => { run(false); time = t; draw(t); } };
+load(data);
 requestAnimationFrame(tick);
