@@ -125,7 +125,9 @@ def wrong_notes(folder: Path) -> Iterator[str]:
 def released(text: str, folder: Path, version: str, date: str) -> str:
     """The changelog with the section of a version: the notes of a folder by kind and name, each kind above its rows in [Unreleased]."""
     head, rows, rest = re.split(r"(?m)^## \[Unreleased\]\n((?:(?!## ).*\n)*)", text, maxsplit=1)
-    _, *pairs = re.split(r"(?m)^### (.*)\n", rows)
+    before, *pairs = re.split(r"(?m)^### (.*)\n", rows)
+    if before.strip():
+        raise ValueError(f"CHANGELOG.md: text under [Unreleased] before its first heading: {before.strip()[:60]!r}")
     sections = dict.fromkeys(KINDS, "") | {name: below.strip("\n") for name, below in zip(pairs[::2], pairs[1::2], strict=True)}
     for path in reversed(notes(folder)):
         kind = path.name.split(".")[1].capitalize()
@@ -161,9 +163,15 @@ def planted() -> int:
         for file, row in {"d.new.md": "- D.\n", "E.fixed.md": "- E.\n", "f.fixed.md": "F.\n"}.items():
             (folder / file).write_text(row, encoding="utf-8")
         refused = [line.split(":")[0] for line in wrong_notes(folder)]
+        try:
+            lost = bool(released(text.replace("### Added\n\n- Old", "Lost.\n\n### Added\n\n- Old"), folder, "0.2.0", "2026-02-02"))
+        except ValueError:
+            lost = False
     section = "## [0.2.0] - 2026-02-02\n\n### Added\n\n- A,\n  in two lines.\n- B.\n- Old.\n\n### Fixed\n\n- C.\n\n"
     expected = text.replace("### Added\n\n- Old.\n\n", section)
-    holds = done == expected and not good and refused == ["changes/E.fixed.md", "changes/d.new.md", "changes/f.fixed.md"] and not list(changelog(done))
+    holds = (
+        done == expected and not good and refused == ["changes/E.fixed.md", "changes/d.new.md", "changes/f.fixed.md"] and not list(changelog(done)) and not lost
+    )
     print("release: planted notes are put together, wrong ones refused" if holds else f"release: planted notes are not put together:\n{done}\n{refused}")
     return not holds
 

@@ -399,4 +399,5 @@ def test_members_of_which_nothing_is_known_at_the_end_are_served_up_to_there():
     assert again.plan.known == (first, last) and np.array_equal(again.attitude(last), ensemble[0].attitude(last))
     assert ensemble[0].verify(samples=3).times[-1] == last
     later = ensemble.after(2000.0)
+    assert "2 without a motion" in repr(later) or "3 without a motion" in repr(later)
     assert later.mode[0] == "" and np.isnan(later.energy_ratio[0]) and ensemble.after(50.0).mode[0] != ""

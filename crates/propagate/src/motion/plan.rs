@@ -312,7 +312,7 @@ impl fmt::Display for Plan {
             }
         }
         if let Some([first, last]) = self.known() {
-            let (first, last) = (Short(first), Short(last));
+            let (first, last) = (Short::rounded(first, 6), Short::rounded(last, 6));
             writeln!(
                 f,
                 "known         from {first} to {last}: nearby states separate so fast that nothing is known beyond"

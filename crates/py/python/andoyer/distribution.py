@@ -126,5 +126,7 @@ class Distribution:
         return len(self.mode)
 
     def __repr__(self) -> str:
-        share = ", ".join(f"{mode} {100 * part:.1f} %" for mode, part in self.share().items())
-        return f"<Distribution of {len(self)} members at {self.time}: {share}; {int(self.changed.sum())} changed their mode>"
+        said = [f"{mode} {100 * part:.1f} %" for mode, part in self.share().items()]
+        unknown = int(np.sum(self.mode == ""))
+        said += [f"{unknown} without a motion"] * (unknown > 0)
+        return f"<Distribution of {len(self)} members at {self.time}: {', '.join(said)}; {int(self.changed.sum())} changed their mode>"
