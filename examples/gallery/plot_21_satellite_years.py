@@ -42,11 +42,12 @@ scene = andoyer.Scene(andoyer.Body(moments), attitude / np.linalg.norm(attitude)
 drift = scene.drift()
 print(f"spin period: {86400 * drift.spin_period:+.3f} s a day; a small wobble {'grows' if drift.wobble_rate > 0 else 'decays'}")
 evolution = scene.evolve()
-print(evolution.end)
+print(f"{evolution.end.reason} after {evolution.end.time / year:.1f} of 10 years")
 
 # %%
 # The rotation becomes slower and faster as its axis wanders through the seasons of sunlight. The excess of energy, ξ over its value at the separatrix, says how it tumbles: 0 is uniform
-# rotation. At 1 the body changes its mode. Which way depends on phases that nobody knows by then, so the evolution ends there.
+# rotation. At 1 the body changes its mode. Which way depends on phases that nobody knows by then, so the evolution ends there; ``evolution.through(16)`` goes on with the probabilities of each. The warning is about the
+# direction of the angular momentum, which precesses many times: what the polynomials leave out is counted over its whole way. Period and obliquity hold better.
 
 times = np.linspace(0, evolution.end.time, 2000)
 states = evolution.at(times)
