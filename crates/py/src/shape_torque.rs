@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use andoyer_propagate::torques::{Facet, Finish, Light, Mesh, SourcePath, SphereRule, Torque as Inner, TorqueSource};
+use andoyer_propagate::torques::{Facet, Finish, Light, Mesh, SphereRule, Torque as Inner, TorqueSource};
 use andoyer_series::error::Kind;
 use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
@@ -211,9 +211,9 @@ impl Torque {
         let py = class.py();
         let rule = SphereRule::of_degree(asked_degree(degree)?).map_err(error::propagation)?;
         let path = source_path(source)?;
-        let falls = !matches!(path, SourcePath::Direction(_));
+        let falls = !matches!(path, andoyer_propagate::torques::SourcePath::Direction(_));
         let power = optional("power", power, if falls { 2.0 } else { 0.0 })?;
-        let at = reference(at, falls && power != 0.0)?;
+        let at = at.map(|at| array::number("at", at)).transpose()?;
         let source = TorqueSource::new("s", path).falling(power, at);
         if table.is_callable() {
             let directions = array::constant_rows(py, &rule.directions())?;
@@ -278,18 +278,8 @@ fn asked_degree(value: Option<&Bound<'_, PyAny>>) -> PyResult<u32> {
 }
 
 fn light(pressure: &Bound<'_, PyAny>, source: &Bound<'_, PyAny>, at: Option<&Bound<'_, PyAny>>) -> PyResult<Light> {
-    let path = source_path(source)?;
-    let at = reference(at, !matches!(path, SourcePath::Direction(_)))?;
-    Ok(Light { path, pressure: array::number("pressure", pressure)?, at })
-}
-
-/// The distance at which a torque is stated, if it falls with the distance.
-fn reference(at: Option<&Bound<'_, PyAny>>, falls: bool) -> PyResult<Option<f64>> {
-    if at.is_none() && falls {
-        let bound = "the distance of the source at which the torque is stated, in the unit of length of its orbit";
-        return Err(error::input("at", "None", bound, format!("at = None: it must be {bound}")));
-    }
-    at.map(|at| array::number("at", at)).transpose()
+    let at = at.map(|at| array::number("at", at)).transpose()?;
+    Ok(Light { path: source_path(source)?, pressure: array::number("pressure", pressure)?, at })
 }
 
 /// One number for all plates, or one for each.

@@ -180,15 +180,3 @@ def test_bad_shapes_are_refused():
         Torque.from_facets(3.0, **keywords)
     with pytest.raises(InputError, match="one source"):
         Torque.polynomial(["w1", "0", "0"]).value([1, 0, 0])
-
-
-def test_a_source_with_a_distance_needs_that_of_the_torque():
-    orbit = Orbit(1e-3, semi_major_axis=1.0)
-    for torque in (
-        lambda: Torque.panels([[1, 0, 0]], [1.0], [[0.1, 0.2, 0.3]], pressure=1e-5, source=orbit),
-        lambda: Torque.sphere(lambda u: u, source=orbit),
-    ):
-        with pytest.raises(InputError, match="^at = None: it must be the distance of the source") as caught:
-            torque()
-        assert caught.value.argument == "at"
-    assert Torque.sphere(lambda u: np.cross(u, [0, 0, 1]), source=orbit, power=0.0, degree=2).degree == 1

@@ -154,7 +154,7 @@ impl TorqueSource {
             ));
         }
         let Some(reference_distance) = reference_distance else {
-            let bound = "given, in the unit of length of semi_major_axis or of the table: the distance at which the texts have the torque";
+            let bound = "given, in the unit of length of semi_major_axis or of the table: the distance at which the texts have the torque, of a shape its `at`";
             return Err(torque_refused("reference_distances", format!("{name}: none"), bound));
         };
         if !(*reference_distance > 0.0 && reference_distance.is_finite()) {
