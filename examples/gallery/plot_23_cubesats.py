@@ -25,8 +25,8 @@ day = 86400.0
 released = andoyer.Ensemble.from_orbital(body, [0, 0, 0], rates, orbit=orbit, elements_of="rotating", frame="lvlh", span=(0, day), tolerance=1e-4, errors="nan")
 
 # %%
-# The angle between the long axis and the direction to the Earth, over a day. Members at the border tumble chaotically, so that little is known of their attitude at the end of the day; the warning counts those
-# that miss the tolerance. If nothing is known of a member from some time on, its later rows are NaN, ``plans[i].known`` has the time, and it does not count as captured. A member is captured if it never turns its other end to the Earth.
+# The angle between the long axis and the direction to the Earth, over a day. Members at the border tumble chaotically: their error bounds exceed the tolerance, and the warning counts
+# them. From the time on at which the bound of a member is half a turn its rows are NaN, ``plans[i].known`` has the time, and it does not count as captured. A member is captured if it never turns its other end to the Earth.
 
 times = np.linspace(0, day, 400)
 seen = released.orbital(times, elements_of="rotating", frame="lvlh")

@@ -1,6 +1,6 @@
 """Compare passages of resonances with integrations of the full equations: the jumps, and whether capture was named where it happens (docs/theory-averaged.md, section 6).
 
-    python tests/stress/passages.py                           50 passages of six phases each, some minutes of one core
+    python tests/stress/passages.py                           50 passages of six phases each, five minutes of one core
     python tests/stress/passages.py --passages 10 --seed 7 --each
 
 A scene has a body and a torque as in evolutions.py, a fixed source, a root mean square ε from 1e-4 to 1e-3 of M times the rate, and begins next to a resonance (h, m) of low order. Members with random phases and the averaged state

@@ -237,7 +237,7 @@ fn integrated_members_are_their_scenes_but_for_rounding_and_do_not_depend_on_the
 }
 
 #[test]
-fn members_of_which_nothing_is_known_at_the_end_are_served_up_to_there() {
+fn members_with_an_unknown_attitude_at_the_end_are_served_up_to_there() {
     // Tumbling in a plane that is chaotic: a Lyapunov time is about an orbit, 2π.
     let (moments, level) = (vec![[0.5, 0.8, 1.0]; 2], vec![LEVEL; 2]);
     let rates = vec![[0.01, 0.02, 1.0], [0.05, -0.03, 1.1]];
@@ -250,18 +250,18 @@ fn members_of_which_nothing_is_known_at_the_end_are_served_up_to_there() {
     assert!(
         plans[0].error_bound() > 3.0
             && !plans[0].meets_tolerance()
-            && plans[0].to_string().contains("nothing is known beyond"),
+            && plans[0].to_string().contains("beyond, nearby states have separated"),
         "{}",
         plans[0]
     );
 
     let times = [-20.0, 10.0, 50.0, known[0][1], known[0][1] + 1e-6, 2000.0];
     let mut attitudes = [[0.0; 4]; 12];
-    let outcome = chaotic.attitudes_into(&times, &mut attitudes).expect("NaN where nothing is known");
+    let outcome = chaotic.attitudes_into(&times, &mut attitudes).expect("NaN where the attitude is unknown");
     assert_eq!(outcome.errors().iter().map(|(index, _)| *index).collect::<Vec<_>>(), [0, 1]);
     assert!(outcome.errors()[0].1.to_string().contains("nearby states separate"), "{}", outcome.errors()[0].1);
     let said = outcome.missed_tolerance().expect("all miss the tolerance");
-    assert!(said.contains("; of 2 nothing is known at the ends of their spans"), "{said}");
+    assert!(said.contains("; the attitudes of 2 members are unknown at the ends of their spans"), "{said}");
     assert!(attitudes[..4].iter().all(|row| row[3].is_finite()) && attitudes[4..6].iter().all(|row| row[3].is_nan()));
     let tolerant = chaotic.clone().tolerance(10.0).attitudes_into(&times, &mut [[0.0; 4]; 12]).expect("NaN");
     assert!(tolerant.missed_tolerance().is_some_and(|said| said.starts_with("2 of 2 members")));

@@ -336,13 +336,13 @@ andoyer_series::error_table! {
         } => Theory, facts("span", *time, *bound as f64);
 
         /// A motion whose nearby states separate so fast that the attitude at the end of the span is unknown.
-        #[error("span = [{first}, {last}]: nearby states separate so fast that the attitude is unknown at its end; the tolerance, {tolerance:e} rad, holds from {start} to {stop}, and something is known from {known_first} to {known_last}", first = Short(.span[0]), last = Short(.span[1]), start = Short(*.start), stop = Short(*.stop), known_first = Short(.known[0]), known_last = Short(.known[1]))]
+        #[error("span = [{first}, {last}]: nearby states separate so fast that the attitude is unknown at its end; the tolerance, {tolerance:e} rad, holds from {start} to {stop}, the error bound is below half a turn from {known_first} to {known_last}", first = Short(.span[0]), last = Short(.span[1]), start = Short(*.start), stop = Short(*.stop), known_first = Short(.known[0]), known_last = Short(.known[1]))]
         Unpredictable {
             tolerance: f64 = r"The tolerance \[rad\].",
             span: [f64; 2] = "First and last time of the span.",
             start: f64 = "The earliest time at which the tolerance holds.",
             stop: f64 = "The latest time at which the tolerance holds.",
-            known: [f64; 2] = "The earliest and the latest time at which something is known of the attitude.",
+            known: [f64; 2] = "The earliest and the latest time at which the error bound is below half a turn.",
         } => Theory, facts("span", *span, [*start, *stop]);
 
         /// A number of times at which a motion cannot be verified.

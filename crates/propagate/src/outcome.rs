@@ -17,7 +17,7 @@ struct Missed {
 pub struct Outcome {
     solved: usize,
     missing: usize,
-    /// Members of which nothing is known at the end of their spans.
+    /// Members whose attitude is unknown at the end of their spans.
     lost: usize,
     worst: Option<Missed>,
     errors: Vec<(usize, Error)>,
@@ -50,7 +50,8 @@ impl Outcome {
         let said = missed(bound, tolerance, over);
         let lost = match self.lost {
             0 => String::new(),
-            lost => format!("; of {lost} nothing is known at the ends of their spans, and these times are NaN"),
+            1 => "; the attitude of 1 member is unknown at the end of its span, and its rows there are NaN".to_owned(),
+            lost => format!("; the attitudes of {lost} members are unknown at the ends of their spans, and their rows there are NaN"),
         };
         Some(format!(
             "{} of {} members miss the tolerance, the worst is member {member}: {said}{lost}",

@@ -41,7 +41,7 @@ impl Scene {
     ///   a method other than [`Method::Auto`](crate::Method::Auto) and [`Method::Integrated`](crate::Method::Integrated).
     /// - [`Error::NoSpan`] where the motion is integrated and no span is given; [`Error::OnlyIntegrated`] for a table of positions, a hyperbola or a torque
     ///   beside the gravity gradient with another method.
-    /// - [`Error::TooManySteps`], [`Error::Unpredictable`] where the integration takes too many steps, or nothing is known at its end; [`Error::TableSpan`].
+    /// - [`Error::TooManySteps`], [`Error::Unpredictable`] where the integration takes too many steps, or the attitude is unknown at its end; [`Error::TableSpan`].
     pub fn solve(&self) -> Result<Motion, Error> {
         self.solve_until(&GOING)
     }

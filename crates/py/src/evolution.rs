@@ -242,7 +242,7 @@ impl Evolution {
         Ok(EvolvedStates { evolution: slf.clone().unbind(), states, leading })
     }
 
-    /// A scene at a time whose averaged motion this is: torques, orbits and options are those of `scene`, without a span. Of the phases nothing is known, so they are given; what the averages leave out at these phases is added to them.
+    /// A scene at a time whose averaged motion this is: torques, orbits and options are those of `scene`, without a span. The averages do not contain the phases, so they are given; what the averages leave out at these phases is added to them.
     ///
     /// Parameters
     /// ----------

@@ -56,7 +56,7 @@ impl Plan {
         self.0.steps()
     }
 
-    /// The first and the last time at which something is known of the attitude, of a member of an ensemble with ``errors="nan"`` that is not served over its whole span; otherwise None.
+    /// The first and the last time at which the error bound is below half a turn, of a member of an ensemble with ``errors="nan"`` that is not served over its whole span; otherwise None.
     #[getter]
     fn known(&self) -> Option<(f64, f64)> {
         self.0.known().map(Into::into)

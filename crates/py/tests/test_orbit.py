@@ -209,3 +209,15 @@ def test_units_of_a_table_that_do_not_fit_those_of_gm_are_said(length, time, gm,
         warnings.simplefilter("error")
         andoyer.TabulatedOrbit(seconds, kilometres, 3.986e5)
         andoyer.TabulatedOrbit(seconds, kilometres, 3.986e5 / 82)  # a small partner, whose primary is heavier
+
+
+@pytest.mark.parametrize(("gm", "distance", "angle"), [(324858.6, 1.8e8, 0.4), (42828.4, 2.2e8, 1.3), (1.9e-3, 5e6, 2.0)])
+def test_a_body_that_does_not_hold_the_satellite_has_no_doubtful_units(gm, distance, angle):
+    """Venus, Mars and a small asteroid from a low orbit: the satellite's acceleration is that towards the Earth."""
+    seconds = np.arange(0, 86400, 60.0)
+    turned = np.sqrt(398600.4418 / 7000**3) * seconds
+    satellite = 7000 * np.stack([np.cos(turned), np.sin(turned) * np.cos(0.9), np.sin(turned) * np.sin(0.9)], axis=1)
+    far = distance * np.array([np.cos(angle), np.sin(angle), 0.05])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        andoyer.TabulatedOrbit(seconds, far - satellite, gm)

@@ -83,7 +83,7 @@ impl Ensemble {
         self.kept.get(member).unwrap_or_else(|| Arc::new(solve()))
     }
 
-    /// The part of its span over which a member is solved. With [`OnError::Nan`] it ends where nothing more is known of the attitude, and only the rows of later times are NaN.
+    /// The part of its span over which a member is solved. With [`OnError::Nan`] it ends where the error bound reaches half a turn, and only the rows of later times are NaN.
     fn served(&self) -> Served {
         match self.on_error {
             OnError::Raise => Served::WholeSpan,

@@ -54,20 +54,29 @@ const OF_THE_MOON: [(&str, f64); 18] = [
     ("S44", 8.314_75e-8),
 ];
 
-/// Degree, order and the normalized C and S of Eros, solution NEAR15A (J. K. Miller et al., Icarus 155 (2002) 3; the file of the Planetary Data System), about the axes of its prime meridian.
-const OF_EROS: [(u32, u32, f64, f64); 12] = [
-    (2, 0, -5.246_183_930_97e-2, 0.0),
-    (2, 1, -1.637_912_961_16e-6, -1.400_038_061_64e-7),
-    (2, 2, 8.239_938_798_58e-2, -2.810_955_590_16e-2),
-    (3, 0, -1.414_465_370_45e-3, 0.0),
-    (3, 1, 4.060_164_755_96e-3, 3.368_468_993_23e-3),
-    (3, 2, 1.775_914_094_89e-3, -7.038_031_814_78e-4),
-    (3, 3, -1.041_639_994_96e-2, -1.207_144_048_20e-2),
-    (4, 0, 1.293_148_199_62e-2, 0.0),
-    (4, 1, -1.003_509_335_84e-4, 1.369_399_290_63e-4),
-    (4, 2, -1.746_880_183_25e-2, 4.629_099_530_71e-3),
-    (4, 3, -3.002_011_920_46e-4, -1.192_071_641_56e-4),
-    (4, 4, 1.745_516_689_02e-2, -9.105_292_769_48e-3),
+/// Those of Eros, fully normalized, about the axes of its prime meridian: solution NEAR15A (J. K. Miller et al., Icarus 155 (2002) 3; the file of the Planetary Data System).
+const OF_EROS: [(&str, f64); 21] = [
+    ("C20", -5.246_183_930_97e-2),
+    ("C21", -1.637_912_961_16e-6),
+    ("S21", -1.400_038_061_64e-7),
+    ("C22", 8.239_938_798_58e-2),
+    ("S22", -2.810_955_590_16e-2),
+    ("C30", -1.414_465_370_45e-3),
+    ("C31", 4.060_164_755_96e-3),
+    ("S31", 3.368_468_993_23e-3),
+    ("C32", 1.775_914_094_89e-3),
+    ("S32", -7.038_031_814_78e-4),
+    ("C33", -1.041_639_994_96e-2),
+    ("S33", -1.207_144_048_20e-2),
+    ("C40", 1.293_148_199_62e-2),
+    ("C41", -1.003_509_335_84e-4),
+    ("S41", 1.369_399_290_63e-4),
+    ("C42", -1.746_880_183_25e-2),
+    ("S42", 4.629_099_530_71e-3),
+    ("C43", -3.002_011_920_46e-4),
+    ("S43", -1.192_071_641_56e-4),
+    ("C44", 1.745_516_689_02e-2),
+    ("S44", -9.105_292_769_48e-3),
 ];
 
 /// Coefficients of degree 2 that differ from those of the inertia tensor by more than this part of the largest are named.
@@ -105,11 +114,12 @@ impl PartialEq for Gravity {
     }
 }
 
-/// What turns a fully normalized coefficient into an unnormalized one: √((2 − δ_0m)(2n + 1)(n − m)!/(n + m)!).
-fn unnormalized(degree: u32, order: u32) -> f64 {
+/// A fully normalized coefficient with the factor that makes it an unnormalized one: √((2 − δ_0m)(2n + 1)(n − m)!/(n + m)!), n and m being the digits of its name.
+fn unnormalized((name, value): (&'static str, f64)) -> (&'static str, f64) {
+    let [degree, order] = [1, 2].map(|place| u32::from(name.as_bytes()[place] - b'0'));
     let factorials: f64 = (degree - order + 1..=degree + order).map(f64::from).product();
     let twice = if order == 0 { 1.0 } else { 2.0 };
-    (twice * f64::from(2 * degree + 1) / factorials).sqrt()
+    (name, value * (twice * f64::from(2 * degree + 1) / factorials).sqrt())
 }
 
 impl Gravity {
@@ -162,15 +172,7 @@ impl Gravity {
     pub fn named(name: &str) -> Result<Self, Error> {
         match &name.to_ascii_lowercase()[..] {
             "moon" => Self::new(&OF_THE_MOON, 1738.0),
-            "eros" => {
-                let both = |(degree, order, c, s): (u32, u32, f64, f64)| {
-                    let named =
-                        |kind, value: f64| (format!("{kind}{degree}{order}"), value * unnormalized(degree, order));
-                    std::iter::once(named("C", c)).chain((order > 0).then(|| named("S", s)))
-                };
-                let all: Vec<_> = OF_EROS.into_iter().flat_map(both).collect();
-                Self::new(&all.iter().map(|(name, value)| (&name[..], *value)).collect::<Vec<_>>(), 16.0)
-            }
+            "eros" => Self::new(&OF_EROS.map(unnormalized), 16.0),
             _ => Err(torque_refused("name", name, "\"moon\" or \"eros\"")),
         }
     }

@@ -106,6 +106,6 @@ pub enum Averaging {
 pub(crate) enum Served {
     /// All of it, or an error.
     WholeSpan,
-    /// As much as something is known of the attitude.
+    /// As much of it as has an error bound below half a turn.
     WhileKnown,
 }

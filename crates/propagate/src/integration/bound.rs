@@ -41,7 +41,7 @@ const SHORTER: f64 = 0.9;
 /// Length of the steps of an enlarged displacement, relative to those of the motion. With 1.15 an integration takes 2 to 27 % more time, and has the
 /// same bounds to a quarter.
 const LONGER: f64 = 1.5;
-/// A distance beyond which nothing is known \[rad\].
+/// A distance from which on the error bound is half a turn \[rad\].
 const LOST: f64 = 0.5;
 /// Rounding errors of the evaluation \[rad\].
 pub(super) const FLOOR: f64 = 1e-14;

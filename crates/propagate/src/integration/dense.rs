@@ -19,8 +19,8 @@ use crate::simd::run::Run;
 
 /// The reasons why the times of an integrated motion are bounded.
 const BEFORE: &str = ": the motion is integrated over its span, and this is the part before the epoch";
-const LOST: &str = ": nearby states separate so fast that the attitude is unknown beyond it";
 const AFTER: &str = ": the motion is integrated over its span, and this is the part after the epoch";
+const UNKNOWN: &str = ": nearby states separate so fast that the attitude is unknown beyond it";
 
 /// The step of the last evaluated time.
 pub(crate) struct Cursor<'a> {
@@ -102,7 +102,7 @@ impl Forced for Integrated {
     }
 
     fn ends(&self, _: End) -> [End; 2] {
-        let reason = |side: usize| if self.lost[side] { LOST } else { [BEFORE, AFTER][side] };
+        let reason = |side: usize| if self.lost[side] { UNKNOWN } else { [BEFORE, AFTER][side] };
         [0, 1].map(|side| (self.reach[side].abs(), reason(side)))
     }
 }

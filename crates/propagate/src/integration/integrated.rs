@@ -97,7 +97,7 @@ impl Integrated {
         Ok(problem.motion(precision.order, [before?.0, after?.0], (f64::INFINITY, None)))
     }
 
-    /// The motion, or where nothing is known of it at the end of the span its part before that.
+    /// The motion; for a member, where its error bound reaches half a turn within the span, the part before that.
     fn known(
         problem: &Problem,
         scene: &Scene,
@@ -128,7 +128,7 @@ impl Integrated {
         Err(Error::Unpredictable { tolerance, span, start, stop, known })
     }
 
-    /// The motion up to the last times at which something is known of it. The error bound is that over the span.
+    /// The motion up to the last times at which its error bound is below half a turn. The error bound is that over the span.
     fn while_known(mut self, profiles: &[Profile; 2]) -> Self {
         for (side, profile) in profiles.iter().enumerate() {
             self.lost[side] = profile.last().is_some_and(|(_, error)| *error >= PI);
@@ -166,7 +166,7 @@ impl Integrated {
     }
 }
 
-/// The last time at which something is known of the attitude.
+/// The last time at which the error bound is below half a turn.
 fn last_known(profile: &Profile) -> f64 {
     profile.iter().take_while(|(_, error)| *error < PI).last().map_or(0.0, |(time, _)| *time)
 }

@@ -47,7 +47,7 @@ pub(crate) struct IntegrationPlan {
     /// The error bound without the interpolation of tables, where it is less than half of the whole and the whole exceeds the tolerance \[rad\].
     #[serde(default)]
     pub(crate) uninterpolated: Option<f64>,
-    /// The first and the last time at which something is known of the attitude, where these are not the ends of the span.
+    /// The first and the last time at which the error bound is below half a turn, where these are not the ends of the span.
     #[serde(default)]
     pub(crate) known: Option<[f64; 2]>,
 }
@@ -123,7 +123,7 @@ impl Plan {
         self.integration.map_or(0, |integration| integration.steps)
     }
 
-    /// The first and the last time at which something is known of the attitude, of a member of an ensemble that is not served over its whole span.
+    /// The first and the last time at which the error bound is below half a turn, of a member of an ensemble that is not served over its whole span.
     pub fn known(&self) -> Option<[f64; 2]> {
         self.integration.and_then(|integration| integration.known)
     }
@@ -315,7 +315,7 @@ impl fmt::Display for Plan {
             let (first, last) = (Short::rounded(first, 6), Short::rounded(last, 6));
             writeln!(
                 f,
-                "known         from {first} to {last}: nearby states separate so fast that nothing is known beyond"
+                "known         from {first} to {last}: beyond, nearby states have separated and the error bound is half a turn"
             )?;
         }
         if let Some(twice) = self.resonance {
@@ -395,7 +395,7 @@ pub(crate) fn in_ascii(message: &str) -> String {
     message.replace('σ', "sigma").replace('−', "-").replace('²', "^2")
 }
 
-/// An error bound as text. Of half a turn or more nothing is known.
+/// An error bound as text. One of half a turn or more holds for any attitude, and has no figure.
 pub(crate) fn bound_in_words(bound: f64) -> String {
     if bound < PI { format!("{bound:.1e} rad") } else { "half a turn or more".to_owned() }
 }

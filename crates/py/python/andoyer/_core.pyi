@@ -590,7 +590,7 @@ class Plan:
         """The resonance of a libration, in rotations an orbit: a Fraction; None for the other methods."""
     @property
     def known(self) -> tuple[float, float] | None:
-        """The first and the last time at which something is known of the attitude, of a member of an ensemble with ``errors="nan"`` that is not served over its whole span; otherwise None."""
+        """The first and the last time at which the error bound is below half a turn, of a member of an ensemble with ``errors="nan"`` that is not served over its whole span; otherwise None."""
     @property
     def harmonics(self) -> int:
         """The number of harmonics of a libration; otherwise the highest multiple of the anomaly ℓ′ in the evaluation, or 0 if the method has no harmonics."""
@@ -753,7 +753,7 @@ class Evolution:
     def at(self, times: Any) -> EvolvedStates:
         """The averaged state at times of the span, up to the end of the evolution."""
     def motion_at(self, time: float | Any, phases: ArrayLike) -> Scene:
-        """A scene at a time whose averaged motion this is: torques, orbits and options are those of `scene`, without a span. Of the phases nothing is known, so they are given; what the averages leave out at these phases is added to them."""
+        """A scene at a time whose averaged motion this is: torques, orbits and options are those of `scene`, without a span. The averages do not contain the phases, so they are given; what the averages leave out at these phases is added to them."""
     def through(self, members: int = 64, seed: int = 0) -> list[tuple[float, Evolution]]:
         """What becomes of it beyond the separatrix, where the mode depends on phases that the averages have lost: members with evenly spread phases pass it by the full equations, and each outcome goes on in averages."""
     @property

@@ -16,7 +16,7 @@ immutable!(Motion);
 
 #[pymethods]
 impl Motion {
-    /// A motion is pickled as its scene and solved again on loading, without a `ToleranceWarning`: that of a member of which nothing is known at the end of the span as a member.
+    /// A motion is pickled as its scene and solved again on loading, without a `ToleranceWarning`. That of a member that is not served over its whole span is solved as a member.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Scene, bool))> {
         Ok((py.get_type::<Self>().getattr("_restored")?, (self.scene(), self.0.plan().known().is_some())))
     }
