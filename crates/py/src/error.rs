@@ -3,7 +3,9 @@
 //! `Error` is a `ValueError`. It has one subclass for each kind of error that a caller would handle differently. Message, argument, value and bound are those of
 //! the Rust error. An argument of a wrong type (not an array-like of numbers, not a `Body`, not a string) is a `TypeError` of Python.
 
+use std::f64::consts::TAU;
 use std::ffi::CString;
+use std::fmt::Display;
 
 use andoyer_propagate::Error as Propagation;
 use andoyer_series::Error as Algebra;
@@ -41,6 +43,20 @@ create_exception!(
     PyUserWarning,
     "The error bound of a motion, or of members of an ensemble, exceeds the tolerance over the span, or that of an evolution a tenth of its angular momentum."
 );
+
+/// Warns of angles beyond a whole turn, which are probably in degrees.
+pub(crate) fn warn_of_degrees<N: Display>(py: Python<'_>, angles: impl IntoIterator<Item = (N, f64)>) -> PyResult<()> {
+    for (name, angle) in angles.into_iter().filter(|(_, angle)| angle.abs() > TAU) {
+        let said = format!("{name} = {angle:?} is more than a whole turn: angles are in radians, not in degrees");
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(said)?, 1)?;
+    }
+    Ok(())
+}
+
+/// The numbers of an argument with their names.
+pub(crate) fn each<'a>(argument: &'a str, numbers: &'a [f64]) -> impl Iterator<Item = (String, f64)> + 'a {
+    numbers.iter().enumerate().map(move |(index, number)| (format!("{argument}[{index}]"), *number))
+}
 
 /// Issues a `ToleranceWarning` with this text, if there is one, at the line of the caller.
 pub(crate) fn warn_of_tolerance(py: Python<'_>, said: Option<String>) -> PyResult<()> {

@@ -1,10 +1,8 @@
 //! `andoyer.Orbit`.
 
-use std::ffi::CString;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use numpy::PyArrayDyn;
-use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -369,13 +367,7 @@ impl Orbit {
 
 /// Warns of angles beyond a whole turn, which are probably in degrees.
 pub(crate) fn doubt(py: Python<'_>, orbit: &andoyer_propagate::Orbit) -> PyResult<()> {
-    for (argument, angle) in orbit.beyond_a_turn() {
-        let said =
-            format!("orbit.{argument} = {angle:?} is more than a whole turn: angles are in radians, not in degrees");
-        let said = CString::new(said)?;
-        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &said, 1)?;
-    }
-    Ok(())
+    error::warn_of_degrees(py, orbit.beyond_a_turn().map(|(argument, angle)| (format!("orbit.{argument}"), angle)))
 }
 
 // PyO3 leaves the name of an argument out of the message of its own `TypeError`.

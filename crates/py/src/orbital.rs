@@ -103,6 +103,9 @@ impl Scene {
             return Err(error::shape("attitude", &[numbers.len()], "(4,) or (3,)"));
         }
         let turn = asked.turned(&numbers).map_err(error::propagation)?;
+        if numbers.len() == 3 {
+            error::warn_of_degrees(class.py(), error::each("attitude", &numbers))?;
+        }
         State::new(time, [0.0, 0.0, 0.0, 1.0], rates).map_err(error::propagation)?;
         let bodies = disturbing_bodies(orbit)?;
         let scene =

@@ -222,7 +222,8 @@ impl Scene {
         options: Option<Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
-        let variables = array::fixed("andoyer", andoyer)?;
+        let variables: [f64; 6] = array::fixed("andoyer", andoyer)?;
+        error::warn_of_degrees(class.py(), error::each("andoyer", &variables[..3]))?;
         let (time, _) = self::epoch(epoch)?;
         let given = options.as_ref().map(|options| options.get_item("torques")).transpose()?.flatten();
         let torques = given.filter(|given| !given.is_none()).map_or(Ok(Vec::new()), |given| torque::torques(&given))?;
@@ -290,11 +291,13 @@ impl Scene {
         }
         if let Some(amplitudes) = amplitudes {
             state.amplitudes = array::fixed("amplitudes", amplitudes)?;
+            error::warn_of_degrees(py, error::each("amplitudes", &state.amplitudes))?;
         }
         if let Some(phases) = phases {
             // Those of `from_periods` are in turns.
             let argument = if foreign::holds_units(phases)? { "phases of librations" } else { "phases" };
             state.phases = array::fixed(argument, phases)?;
+            error::warn_of_degrees(py, error::each("phases", &state.phases))?;
         }
         let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
         let around = orbit.cast::<Orbit>().map_err(|_| not_one_orbit(orbit))?.get().0;

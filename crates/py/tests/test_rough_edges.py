@@ -35,6 +35,24 @@ def test_phase_beyond_a_turn_warns_and_is_taken():
         Scene.from_periods(body, 27.38, 263.0, phases=[-1.0, 1.0])
 
 
+ABOUT = {"orbit": Orbit(1e-3), "elements_of": "rotating"}
+
+
+@pytest.mark.parametrize(
+    ("name", "make"),
+    [
+        (r"attitude\[0\]", lambda: Scene.from_orbital(Body([1.5, 2, 1]), [10, -3, 5], [0, 0, 0], **ABOUT)),
+        (r"attitudes\[1\]\[0\]", lambda: Ensemble.from_orbital(Body([1.5, 2, 1]), [[1, -3, 5], [10, -3, 5]], [0, 0, 0], **ABOUT)),
+        (r"andoyer\[1\]", lambda: Scene.from_andoyer(Body([1, 1.5, 2]), [0.1, 10, 0.3, 0.5, 1.0, 0.9])),
+        (r"phases\[0\]", lambda: Scene.locked(Body([1, 1.02, 1.05]), Orbit(1e-3), amplitudes=(0.01, 0, 0), phases=(10, 0, 0))),
+    ],
+)
+def test_angles_of_a_state_beyond_a_turn_warn_once_and_are_taken(name, make):
+    with pytest.warns(UserWarning, match=rf"^{name} = 10\.0 is more than a whole turn: angles are in radians") as caught:
+        make()
+    assert len(caught) == 1
+
+
 def test_scene_file_in_degrees_warns_from_python_and_from_the_shell(tmp_path, capsys):
     path = tmp_path / "degrees.toml"
     with warnings.catch_warnings():

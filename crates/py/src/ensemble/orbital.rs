@@ -1,5 +1,7 @@
 //! `andoyer.Ensemble.from_orbital` and `Ensemble.orbital`.
 
+use std::f64::consts::TAU;
+
 use andoyer_propagate::disturbers::DisturbingBody;
 use andoyer_propagate::ensemble::OnError;
 use andoyer_propagate::orbital::OrbitalSample;
@@ -40,6 +42,18 @@ impl Turns {
             Self::Quaternions(rows) => rows.members(),
             Self::Angles(rows) => rows.members(),
         }
+    }
+
+    /// The first angle beyond a whole turn, with its name.
+    fn beyond_a_turn(&self) -> Option<(String, f64)> {
+        let (rows, one) = match self {
+            Self::Quaternions(_) => return None,
+            Self::Angles(MemberRows::One(row)) => (std::slice::from_ref(row), true),
+            Self::Angles(MemberRows::Many(rows)) => (&rows[..], false),
+        };
+        let (member, row) = rows.iter().enumerate().find(|(_, row)| row.iter().any(|angle| angle.abs() > TAU))?;
+        let argument = if one { "attitudes".to_owned() } else { format!("attitudes[{member}]") };
+        error::each(&argument, row).find(|(_, angle)| angle.abs() > TAU)
     }
 
     fn rows(self, members: usize) -> Vec<Vec<f64>> {
@@ -113,6 +127,7 @@ impl Ensemble {
         let on_error: OnError = errors.parse().map_err(error::propagation)?;
         let bodies = Bodies::any(bodies)?;
         let turns = Turns::new(attitudes, scalar_first)?;
+        error::warn_of_degrees(attitudes.py(), turns.beyond_a_turn())?;
         let rates = MemberRows::<3>::new("angular_velocities", angular_velocities)?;
         let around = orbits_given(orbit, orbits)?.unwrap_or_default();
         let of_orbits = if orbits.is_some() { Some(around.len()).filter(|&count| count != 1) } else { None };
