@@ -66,7 +66,9 @@ def torques(random: Random) -> Scene:
 
 def locked(random: Random) -> Scene:
     body = Body([1.0, 1.0 + random.uniform(0.01, 0.02), 1.05])
-    return Scene.locked(body, Orbit(0.1, random.uniform(0.0, 0.01)), amplitudes=(random.uniform(0, 0.02), 0, 0), span=(0, 6e4), method="libration", tolerance=1e-6)
+    return Scene.locked(
+        body, Orbit(0.1, random.uniform(0.0, 0.01)), amplitudes=(random.uniform(0, 0.02), 0, 0), span=(0, 6e4), method="libration", tolerance=1e-6
+    )
 
 
 KINDS: dict[str, Callable[[Random], Scene]] = {
