@@ -2,7 +2,7 @@
 
     python tests/release.py              exit status 1 and one line for each disagreement
     python tests/release.py --write      copies version and address from `workspace.package` in Cargo.toml to the other places, and the date from the changelog
-    python tests/release.py --release    puts the notes of changes/ and the section [Unreleased] together as the section of the version, with the date of today, and does --write
+    python tests/release.py --release    puts the notes of changes/ together as the section of the version, with the date of today, and does --write
     python tests/release.py --planted    the same on invented notes
     python tests/release.py --semver     compares the public Rust names with the last tag by cargo-semver-checks, which must be installed if CI is set
 
@@ -29,6 +29,7 @@ PUBLISHED = ("double", "kernels", "series", "propagate")
 PLACEHOLDER = "https://example.org/"
 PICTURES = (".png", ".svg")
 KINDS = ("Added", "Changed", "Deprecated", "Removed", "Fixed", "Security")
+UNRELEASED = "## [Unreleased]\n\nThe rows of the next version are in `changes/`, one file for each change.\n\n"
 NOTE = re.compile(rf"[a-z0-9]+(?:-[a-z0-9]+)*\.({'|'.join(KINDS).lower()})\.md")
 LINK = re.compile(r"\]\((?!https?:|#)([^)\s]+)\)")
 
@@ -90,10 +91,12 @@ def problems() -> Iterator[str]:
 
 
 def changelog(text: str) -> Iterator[str]:
-    """Problems of the changelog: Unreleased must come first, then the versions in descending order, each once and with a date."""
+    """Problems of the changelog: Unreleased must come first with no rows, then the versions in descending order, each once and with a date."""
     headings = re.findall(r"(?m)^## (.*)$", text)
     if not headings or headings[0] != "[Unreleased]":
         yield f"CHANGELOG.md: the first section must be [Unreleased]: got {headings[:1]}"
+    elif f"{UNRELEASED}## " not in text:
+        yield "CHANGELOG.md: under [Unreleased] stands one sentence that names changes/; a row belongs into a file there"
     versions = []
     for heading in headings[1:]:
         match = re.fullmatch(r"\[(\d+)\.(\d+)\.(\d+)\] - \d{4}-\d{2}-\d{2}", heading)
@@ -123,23 +126,19 @@ def wrong_notes(folder: Path) -> Iterator[str]:
 
 
 def released(text: str, folder: Path, version: str, date: str) -> str:
-    """The changelog with the section of a version: the notes of a folder by kind and name, each kind above its rows in [Unreleased]."""
-    head, rows, rest = re.split(r"(?m)^## \[Unreleased\]\n((?:(?!## ).*\n)*)", text, maxsplit=1)
-    before, *pairs = re.split(r"(?m)^### (.*)\n", rows)
-    if before.strip():
-        raise ValueError(f"CHANGELOG.md: text under [Unreleased] before its first heading: {before.strip()[:60]!r}")
-    sections = dict.fromkeys(KINDS, "") | {name: below.strip("\n") for name, below in zip(pairs[::2], pairs[1::2], strict=True)}
-    for path in reversed(notes(folder)):
-        kind = path.name.split(".")[1].capitalize()
-        sections[kind] = f"{path.read_text(encoding='utf-8')}{sections[kind]}".strip("\n")
-    body = "\n".join(f"### {name}\n\n{below}\n" for name, below in sections.items() if below)
-    return f"{head}## [Unreleased]\n\n## [{version}] - {date}\n\n{body}\n{rest}"
+    """The changelog with the section of a version: the notes of a folder by kind and name."""
+    sections = dict.fromkeys(KINDS, "")
+    for path in notes(folder):
+        sections[path.name.split(".")[1].capitalize()] += path.read_text(encoding="utf-8")
+    body = "".join(f"### {name}\n\n{rows}\n" for name, rows in sections.items() if rows)
+    return text.replace(UNRELEASED, f"{UNRELEASED}## [{version}] - {date}\n\n{body}")
 
 
 def release() -> int:
     """Write the section of the version and remove its notes."""
     path, folder = ROOT / "CHANGELOG.md", ROOT / "changes"
-    text, found = path.read_text(encoding="utf-8"), list(wrong_notes(folder))
+    text = path.read_text(encoding="utf-8")
+    found = [*wrong_notes(folder), *changelog(text)]
     if f"## [{VERSION}]" in text:
         found.append(f"CHANGELOG.md: has a section of {VERSION}; set another version in Cargo.toml")
     if found:
@@ -152,8 +151,9 @@ def release() -> int:
 
 
 def planted() -> int:
-    """Put invented notes together, and refuse one with a wrong name and one with a wrong form."""
-    text = "# Changelog\n\n## [Unreleased]\n\n### Added\n\n- Old.\n\n## [0.1.0] - 2026-01-01\n\n### Added\n\n- First.\n"
+    """Put invented notes together; refuse notes with a wrong name or form, and a row under [Unreleased]."""
+    first = "## [0.1.0] - 2026-01-01\n\n### Added\n\n- First.\n"
+    text = f"# Changelog\n\n{UNRELEASED}{first}"
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for file, row in {"b.added.md": "- B.\n", "a-1.added.md": "- A,\n  in two lines.\n", "c.fixed.md": "- C.\n", "README.md": "Notes.\n"}.items():
@@ -163,14 +163,14 @@ def planted() -> int:
         for file, row in {"d.new.md": "- D.\n", "E.fixed.md": "- E.\n", "f.fixed.md": "F.\n"}.items():
             (folder / file).write_text(row, encoding="utf-8")
         refused = [line.split(":")[0] for line in wrong_notes(folder)]
-        try:
-            lost = bool(released(text.replace("### Added\n\n- Old", "Lost.\n\n### Added\n\n- Old"), folder, "0.2.0", "2026-02-02"))
-        except ValueError:
-            lost = False
-    section = "## [0.2.0] - 2026-02-02\n\n### Added\n\n- A,\n  in two lines.\n- B.\n- Old.\n\n### Fixed\n\n- C.\n\n"
-    expected = text.replace("### Added\n\n- Old.\n\n", section)
+    expected = f"# Changelog\n\n{UNRELEASED}## [0.2.0] - 2026-02-02\n\n### Added\n\n- A,\n  in two lines.\n- B.\n\n### Fixed\n\n- C.\n\n{first}"
+    rows = [list(changelog(text.replace(first, f"{planted}\n\n{first}"))) for planted in ("### Added\n\n- Row.", "Text.")]
     holds = (
-        done == expected and not good and refused == ["changes/E.fixed.md", "changes/d.new.md", "changes/f.fixed.md"] and not list(changelog(done)) and not lost
+        done == expected
+        and not good
+        and refused == ["changes/E.fixed.md", "changes/d.new.md", "changes/f.fixed.md"]
+        and not list(changelog(done))
+        and [len(found) for found in rows] == [1, 1]
     )
     print("release: planted notes are put together, wrong ones refused" if holds else f"release: planted notes are not put together:\n{done}\n{refused}")
     return not holds

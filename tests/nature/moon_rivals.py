@@ -7,7 +7,7 @@ Each is a matrix from axes of the Moon to the ICRF. The difference from the orie
 without the mean rotation, which is another choice of axes. `mean` is this rotation.
 
     table     docs/data/moon_orientation.py, 60 terms: principal axes of DE421 (MOON_PA_DE421)
-    WGCCRE    right ascension, declination and meridian with 13 arguments (Archinal et al. 2018, Celest. Mech. Dyn. Astron. 130:22, table 2; frame IAU_MOON of SPICE): mean-Earth axes
+    WGCCRE    right ascension, declination and meridian with 13 arguments (Archinal et al. 2018, Celest. Mech. Dyn. Astron. 130:22, table 2, as NAIF's kernels quote it; frame IAU_MOON of SPICE): mean-Earth axes
     Meeus     Astronomical Algorithms (1998), chapter 53, by PyMeeus: librations and position angle of the axis, at his place of the Moon; true equator and equinox of date, which
               ERFA turns to the ICRF (IAU 2006/2000A): mean-Earth axes
 

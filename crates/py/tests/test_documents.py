@@ -122,7 +122,7 @@ def test_letters_of_the_gravity_gradient_have_the_meaning_of_the_table_of_symbol
 
 
 def test_errors_that_the_pages_name_exist_and_are_raised_for_what_they_say():
-    pages = [REPOSITORY / "README.md", REPOSITORY / "CHANGELOG.md", *(REPOSITORY / "docs").glob("*.md")]
+    pages = [REPOSITORY / "README.md", REPOSITORY / "CHANGELOG.md", *(REPOSITORY / "changes").glob("*.md"), *(REPOSITORY / "docs").glob("*.md")]
     named = {(page.name, name) for page in pages for name in re.findall(r"`(?:andoyer\.)?(\w+Error)`", page.read_text(encoding="utf-8"))}
     assert ("gravity-gradient.md", "TheoryError") in named
     # OnError is a variant of the Rust errors.

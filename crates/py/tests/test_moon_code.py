@@ -87,6 +87,12 @@ def test_the_code_has_the_rows_of_the_table(moon):
     assert len(moon["POLE"]) + len(moon["LONGITUDE"]) == 60
 
 
+@pytest.mark.parametrize("language", ["c", "rs", "py", "js"])
+def test_the_code_ends_with_the_kernel_of_its_language(language):
+    kernel = (REPOSITORY / f"crates/series/examples/moon_table/kernel.{language}").read_text(encoding="utf-8")
+    assert len(kernel) > 1000 and (DATA / f"moon_orientation.{language}").read_text(encoding="utf-8").endswith(kernel)
+
+
 def test_a_month_of_the_kernel_is_within_an_arcsecond(moon):
     times = np.linspace(0, 31 * 86400, 125)
     expected = output.read_pck(MOON, 31006, times).attitude
