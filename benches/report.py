@@ -1,4 +1,4 @@
-"""Write the measured figures as text and pictures: the end of docs/speed.md, docs/performance.png and the table of the README.
+"""Write the measured figures as text and pictures: the end of docs/speed.md, docs/performance.png, docs/rivals.png and the table of the README.
 
     python benches/report.py          `make report`, from docs/data/bench.csv, work-precision.csv and stress.csv
 
@@ -8,6 +8,8 @@ This script measures nothing, and refuses figures that are not those of one run 
 import csv
 import re
 import sys
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import matplotlib
 
@@ -184,52 +186,98 @@ def spread(values, digits=2):
     return low if low == high else f"{low} to {high}"
 
 
+class Against(NamedTuple):
+    """One rival at one kind of work: the ratios of its time to ours, our errors and its errors [rad], none where both are exact or the rival is set to our error."""
+
+    work: str
+    rival: str
+    ratios: Sequence[float]
+    ours: Sequence[float] = ()
+    its: Sequence[float] = ()
+
+
+def numbers(rows, column):
+    """A column as numbers."""
+    return [float(row[column]) for row in rows]
+
+
 def against_rivals():
-    """The ratio of the times and both errors, a row for a rival and a kind of work."""
-    lines = []
-    propagation = read("rivals-propagation")
-    ours = {(row["scene"], row["times"]): row for row in propagation if row["engine"] == "andoyer closed"}
-    engines = ("heyoka 1e-12", "heyoka 1e-15", "SciPy closed form", "SciPy DOP853", "ode_solvers DOP853", "Orekit TorqueFree")
-    for engine in engines:
-        for times in ("uneven", "uniform"):
-            here = [row for row in propagation if (row["engine"], row["times"]) == (engine, times)]
-            if here:
-                own = [float(ours[row["scene"], times]["attitude_error"]) for row in here]
-                ratios, errors = ([float(row[column]) for row in here] for column in ("whole_ratio", "attitude_error"))
-                work = f"free motion, set-up and 100,000 {times} times"
-                lines.append([work, engine, spread(ratios), spread(own, 1), spread(errors, 1)])
-    gradient = read("rivals-gradient")
-    columns = [[float(row[name]) for row in gradient] for name in ("ratio", "error", "heyoka_error")]
-    lines.append(["gravity gradient, 1,000 rotations, averaged", "heyoka 1e-12", spread(columns[0]), spread(columns[1], 1), spread(columns[2], 1)])
-    ratios = [float(row["ratio_at_error"]) for row in read("rivals-integration")]
-    lines.append(["gravity gradient, integrated, with our error bound", "heyoka at our error", spread(ratios), "–", "–"])
-    partials = read("rivals-partials")
-    for forced in (False, True):
-        here = [row for row in partials if (row["scene"] == "under a torque") is forced]
-        work = "derivatives under a torque" if forced else "derivatives of the free motion"
-        lines.append([work, "heyoka's variational equations", spread([float(row["ratio"]) for row in here]), "–", "–"])
-    for row in read("rivals-normal-form"):
-        if row["rival"] == "flint" and row["order"] in ("10", "30", "50"):
-            lines.append([f"exact normal form, order {row['order']}", "python-flint, Deprit's triangle", f"{float(row['ratio']):.3g}", "0", "0"])
-    for row in read("rivals-products"):
-        if row["task"].endswith("exact") and row["rival"] != "flint-rational":
-            lines.append([f"product of {row['task']}", row["rival"], f"{float(row['ratio']):.2g}", "0", "0"])
-    return table(["work", "rival", "rival's time / ours", "our error [rad]", "its error [rad]"], lines)
+    """Every rival at every kind of work."""
+    propagation, gradient, partials, products = read("rivals-propagation"), read("rivals-gradient"), read("rivals-partials"), read("rivals-products")
+    own = {(row["scene"], row["times"]): row for row in propagation if row["engine"] == "andoyer closed"}
+    engines = {
+        "heyoka, tolerances 1e-12 and 1e-15": ("heyoka 1e-12", "heyoka 1e-15"),
+        "SciPy, closed form": ("SciPy closed form",),
+        "SciPy, DOP853": ("SciPy DOP853",),
+        "ode_solvers, DOP853": ("ode_solvers DOP853",),
+        "Orekit, TorqueFree": ("Orekit TorqueFree",),
+    }
+    found = []
+    for name, settings in engines.items():
+        here = [row for row in propagation if row["engine"] in settings]
+        ours = numbers([own[row["scene"], row["times"]] for row in here], "attitude_error")
+        found.append(Against("free motion, 100,000 times", name, numbers(here, "whole_ratio"), ours, numbers(here, "attitude_error")))
+    free, forced = ([row for row in partials if (row["scene"] == "under a torque") is under] for under in (False, True))
+    exact = [row for row in read("rivals-normal-form") if row["rival"] == "flint" and row["order"] in ("10", "30", "50")]
+    whole = {rival: [row for row in products if row["rival"] == rival and row["task"].endswith("exact")] for rival in ("flint", "symbolica")}
+    return [
+        *found,
+        Against("averaged gravity gradient", "heyoka, tolerance 1e-12", *(numbers(gradient, name) for name in ("ratio", "error", "heyoka_error"))),
+        Against("integrated gravity gradient, with our bound", "heyoka at our error", numbers(read("rivals-integration"), "ratio_at_error")),
+        Against("derivatives of a free motion", "heyoka, variational equations", numbers(free, "ratio")),
+        Against("derivatives under a torque", "heyoka, variational equations", numbers(forced, "ratio")),
+        Against("exact normal form, orders 10 to 50", "python-flint, Deprit's triangle", numbers(exact, "ratio")),
+        Against("exact products of polynomials", "python-flint", numbers(whole["flint"], "ratio")),
+        Against("exact products of polynomials", "Symbolica", numbers(whole["symbolica"], "ratio")),
+    ]
+
+
+def rivals_table(found):
+    """Ratios and errors, a row for a rival at a kind of work."""
+    rows = [[of.work, of.rival, spread(of.ratios), *(spread(errors, 1) if errors else "–" for errors in (of.ours, of.its))] for of in found]
+    return table(["work", "rival", "rival's time / ours", "our error [rad]", "its error [rad]"], rows)
+
+
+def draw_rivals(found, path):
+    """Draw the range of each ratio as a bar beside its numbers."""
+    with plt.rc_context(STYLE):
+        figure, axes = plt.subplots(figsize=(10, 5), layout="constrained")
+        for place, of in enumerate(reversed(found)):
+            low, high = min(of.ratios), max(of.ratios)
+            axes.barh(place, high - low if high > low else 0.04 * low, left=low, height=0.6, color="#0072B2" if low >= 1 else "#D55E00")
+            axes.annotate(spread(of.ratios), (high, place), (6, 0), textcoords="offset points", va="center")
+        axes.axvline(1, color="#444444", linewidth=0.8)
+        axes.set(
+            xscale="log",
+            xlim=(0.5, 5000),
+            xlabel="rival's time / ours",
+            yticks=range(len(found)),
+            yticklabels=[f"{of.work}: {of.rival}" for of in reversed(found)],
+        )
+        axes.tick_params(axis="y", length=0)
+        axes.spines["left"].set_visible(False)
+        axes.grid(True, axis="x", which="major", color="#DDDDDD", linewidth=0.6)
+        axes.set_axisbelow(True)
+        figure.savefig(path, dpi=110, metadata={"Software": None})
+        plt.close(figure)
 
 
 def main():
-    found = faults()
-    if found:
-        sys.exit("\n".join(f"report: {fault}" for fault in found))
+    wrong = faults()
+    if wrong:
+        sys.exit("\n".join(f"report: {fault}" for fault in wrong))
     bench, precision, stress = read("bench"), read("work-precision"), read("stress")
     draw(precision, ROOT / "docs" / "performance.png")
+    found = against_rivals()
+    draw_rivals(found, ROOT / "docs" / "rivals.png")
     compiled = [float(row["compilation_s"]) for row in read("rivals-integration")] + [float(row["compilation_ms"]) / 1e3 for row in read("rivals-gradient")]
-    said = "A ratio above 1 means that we are faster; a range goes over the scenes, the one next to the separatrix included. "
+    said = "A ratio above 1 means that we are faster; a range goes over the scenes, the one next to the separatrix included, uneven and uniform times, set-up included. "
     said += f"Compilation is not counted: under a torque heyoka's takes {spread(compiled)} s a scene."
     page = "\n\n".join(
         [
             f"Measured in one run, one thread unless it says otherwise: {run()}",
-            against_rivals(),
+            "![Rival's time over ours, a bar a rival](rivals.png)",
+            rivals_table(found),
             said,
             "![Run time against error, a panel a scene, a curve an engine](performance.png)",
             "For each engine the table gives the time of its cheapest setting that reaches the error. The time includes set-up and 20,000 samples:",
@@ -242,7 +290,7 @@ def main():
         f"Medians, for one element if the table has a number of elements, otherwise for the whole task. {run()}\n\n{by_task(bench)}",
     )
     between(ROOT / "README.md", summary(bench, precision, stress))
-    print("docs/speed.md, docs/performance.png, benches/README.md, README.md")
+    print("docs/speed.md, docs/performance.png, docs/rivals.png, benches/README.md, README.md")
 
 
 if __name__ == "__main__":
