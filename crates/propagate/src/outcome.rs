@@ -13,7 +13,7 @@ struct Missed {
 }
 
 /// What became of the members of an ensemble.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
     solved: usize,
     missing: usize,
@@ -51,7 +51,9 @@ impl Outcome {
         let lost = match self.lost {
             0 => String::new(),
             1 => "; the attitude of 1 member is unknown at the end of its span, and its rows there are NaN".to_owned(),
-            lost => format!("; the attitudes of {lost} members are unknown at the ends of their spans, and their rows there are NaN"),
+            lost => format!(
+                "; the attitudes of {lost} members are unknown at the ends of their spans, and their rows there are NaN"
+            ),
         };
         Some(format!(
             "{} of {} members miss the tolerance, the worst is member {member}: {said}{lost}",
