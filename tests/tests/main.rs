@@ -3,6 +3,7 @@
 mod averaged;
 mod bad_input;
 mod cassini;
+mod data;
 mod driven;
 mod emitted_code;
 mod energy;

@@ -77,6 +77,13 @@ pub struct Daf<W> {
     summaries: Summaries,
 }
 
+impl<W> std::fmt::Debug for Daf<W> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let kind = String::from_utf8_lossy(self.identity);
+        f.debug_struct("Daf").field("kind", &kind).field("place", &self.place).finish_non_exhaustive()
+    }
+}
+
 impl<W: Write + Seek> Daf<W> {
     /// A C-kernel with these lines in its comment area. Other characters than printable ASCII become question marks, and long lines are broken.
     ///

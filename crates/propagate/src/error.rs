@@ -150,11 +150,6 @@ andoyer_series::error_table! {
         #[error("language = {value:?}: it must be \"c\", \"rust\", \"python\" or \"javascript\"")]
         CodeLanguage { value: String = "The language as given." } => Input, facts("language", value, "c, rust, python, javascript");
 
-        /// A scene with a torque, or a method for one, in a build without the feature `torques`.
-        #[error("{argument} = {value}: this build has no motions under a torque; build andoyer-propagate with its feature \"torques\"")]
-        NotBuilt { argument: &'static str = "The argument.", value: String = "The value as given." }
-        => Representation, facts(*argument, value.clone(), "absent without the feature torques");
-
         /// A motion for which no code can be written.
         #[error("no code is written of {motion}: rest, steady rotation and torque-free wobbles of both modes have code; a C-kernel or an attitude file holds any motion")]
         NoCode { motion: &'static str = "The kind of the motion." }

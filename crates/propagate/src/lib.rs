@@ -6,10 +6,11 @@
 //! components into inertial ones. The theory is M. Lara, "Short-axis-mode rotation in complex variables" (2017).
 //!
 //! The features are on by default. `torques` has motions under a torque: the averaged theory, integration, libration, and [`Motion::verify`]; without it a free
-//! motion is built alone, and a scene with a torque is [`Error::NotBuilt`]. `scene-files` has scenes as TOML texts, `spice` kernels.
+//! motion is built alone, and a scene takes no orbit and no torque. `rayon` computes on several threads, `serde` has scenes, plans and what they consist of for
+//! serde, `code` writes a motion as source text, `scene-files` has scenes as TOML texts, `spice` kernels.
 #![doc = include_str!("../doc/formulas.html")]
-// What only motions under a torque use is dead without them.
-#![cfg_attr(not(feature = "torques"), allow(dead_code))]
+// What only motions under a torque, files and source texts use is dead without them.
+#![cfg_attr(not(all(feature = "torques", feature = "serde", feature = "code")), allow(dead_code))]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 // The layers, each of which imports only those above it: tests/layers.py holds them to it. Empty lines keep rustfmt from sorting them.
@@ -53,6 +54,7 @@ mod evolution;
 
 pub mod partials;
 
+#[cfg(feature = "code")]
 pub mod motion_code;
 
 #[cfg(feature = "spice")]
@@ -65,7 +67,7 @@ mod observed;
 #[cfg(feature = "torques")]
 mod crossing;
 
-#[cfg(feature = "scene-files")]
+#[cfg(feature = "serde")]
 mod scene_file;
 
 mod outcome;

@@ -221,6 +221,7 @@ fn of_orbit(orbit: &Orbit, epoch: f64, since: f64) -> Result<[Vector3<f64>; 3], 
     Ok([position, normal, normal * (turning + pericentre_rate) + Vector3::z() * node_rate])
 }
 
+#[cfg(feature = "torques")]
 impl Scene {
     /// The scene of a state against the orbital frame: `attitude` rotates body components into components of the frame; the angular velocity is in body components, relative to the
     /// turning frame if `relative`, otherwise inertial. The bodies disturb.
@@ -249,16 +250,32 @@ impl Scene {
         epoch: f64,
     ) -> Result<Self, Error> {
         let bodies: Vec<DisturbingBody> = bodies.into_iter().map(Into::into).collect();
+        let scene = Self::against(body, &bodies, frame, attitude, angular_velocity, relative, epoch)?;
+        Ok(scene.disturbing(bodies))
+    }
+}
+
+impl Scene {
+    /// The scene of [`Scene::from_orbital`], on which no body acts yet.
+    pub(crate) fn against(
+        body: Body,
+        bodies: &[DisturbingBody],
+        frame: &OrbitalFrame,
+        attitude: UnitQuaternion<f64>,
+        angular_velocity: Vector3<f64>,
+        relative: bool,
+        epoch: f64,
+    ) -> Result<Self, Error> {
         if !epoch.is_finite() {
             return Err(Error::Epoch { value: epoch });
         }
         if let Some(axis) = (0..3).find(|&axis| !angular_velocity[axis].is_finite()) {
             return Err(Error::AngularVelocity { axis, value: angular_velocity[axis] });
         }
-        let (turn, rate) = frame.at(&bodies, epoch)?;
+        let (turn, rate) = frame.at(bodies, epoch)?;
         let attitude = turn * attitude;
         let angular_velocity = angular_velocity + if relative { attitude.inverse() * rate } else { Vector3::zeros() };
-        Ok(Self::new(body, State { epoch, attitude, angular_velocity }).disturbing(bodies))
+        Ok(Self::new(body, State { epoch, attitude, angular_velocity }))
     }
 }
 

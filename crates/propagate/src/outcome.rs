@@ -13,7 +13,7 @@ struct Missed {
 }
 
 /// What became of the members of an ensemble.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
     solved: usize,
     missing: usize,

@@ -8,7 +8,6 @@ use std::fmt;
 use std::sync::atomic::AtomicBool;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::input::gravity::Gravity;
@@ -75,7 +74,8 @@ impl<'a> VerifyOptions<'a> {
 }
 
 /// The difference between a motion and an integration of the full equations, from [`Motion::verify`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Verification {
     times: Vec<f64>,
     errors: Vec<f64>,

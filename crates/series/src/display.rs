@@ -79,6 +79,12 @@ impl<C: Coefficient> Polynomial<C> {
     }
 }
 
+impl<C: Coefficient> fmt::Debug for Named<'_, C> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Named").field("polynomial", self.polynomial).field("names", &self.names).finish_non_exhaustive()
+    }
+}
+
 impl<C: Coefficient> Display for Named<'_, C> {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         if self.polynomial.is_zero() {

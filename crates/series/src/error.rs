@@ -334,6 +334,7 @@ crate::error_table! {
     }
 }
 
+#[cfg(feature = "serde")]
 impl Error {
     /// The error for a text that is not the expected JSON.
     pub(crate) fn json(error: serde_json::Error) -> Self {

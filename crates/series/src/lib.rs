@@ -9,21 +9,28 @@
 //! monomials, so two runs give the same bits. The crate does no I/O and has no global state except its [`threads`], and every type is `Send + Sync`. Brackets follow {q; p} = 1.
 //! Theory: M. Lara, *Short-axis-mode rotation in complex variables* (2017), with its errata.
 //!
+//! The features are on by default: `rayon` computes large products on several threads, `serde` has normal forms as JSON texts, `code` has them as source text.
 #![doc = include_str!("../doc/formulas.html")]
+// What only JSON and source texts use is dead without them.
+#![cfg_attr(not(all(feature = "serde", feature = "code")), allow(dead_code))]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod birkhoff;
 mod bracket;
 mod calculus;
 mod coefficient;
 mod display;
+#[cfg(feature = "serde")]
 mod document;
 mod driven;
+#[cfg(feature = "code")]
 mod emit;
 mod energy;
 pub mod error;
 pub mod forms;
 mod harmonics;
 mod homological;
+#[cfg(feature = "serde")]
 mod json;
 mod latex;
 mod monomial;
@@ -36,6 +43,7 @@ mod product;
 pub mod real_field;
 pub mod rigid_body;
 mod ring;
+#[cfg(feature = "code")]
 mod short_axis_code;
 mod terms;
 pub mod threads;
@@ -61,8 +69,10 @@ pub mod lie {
 pub mod print {
     //! Output of normal forms: names of the variables, LaTeX, source code.
     pub use crate::display::Named;
+    #[cfg(feature = "code")]
     pub use crate::emit::{C, Constant, JavaScript, Language, Numbers, Printer, Python, Rust};
     pub use crate::latex::Part;
+    #[cfg(feature = "code")]
     pub use crate::short_axis_code::MAX_CODE_ORDER;
 }
 

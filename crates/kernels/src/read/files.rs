@@ -16,6 +16,13 @@ pub(super) struct Files {
     bodies: BTreeMap<i32, Vec<usize>>,
 }
 
+impl std::fmt::Debug for Files {
+    /// The segments: the files are long.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_list().entries(self.segments.iter().map(|stored| &stored.segment)).finish()
+    }
+}
+
 impl Files {
     pub(super) fn open<P: AsRef<Path>>(paths: &[P], kind: Kind) -> Result<Self, ReadError> {
         let mut files = Self { kind, files: Vec::new(), segments: Vec::new(), bodies: BTreeMap::new() };

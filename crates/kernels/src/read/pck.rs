@@ -11,6 +11,7 @@ use crate::read::segment::{Segment, Stored, turned};
 /// Orientations of bodies from binary PCK files with segments of type 2, of either byte order.
 ///
 /// A body is named by the class ID of its frame: 3000 for ITRF93, 31006 for MOON_PA_DE421. Any number of threads may ask at the same time.
+#[derive(Debug)]
 pub struct Orientations(Files);
 
 impl Orientations {

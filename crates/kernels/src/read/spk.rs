@@ -18,6 +18,7 @@ type State = [[f64; 3]; 2];
 /// Ephemerides of bodies from SPK files with segments of types 2, 3, 9 and 13, of either byte order.
 ///
 /// A file is opened by its summaries; its data are read when a time needs them. Any number of threads may ask for states at the same time.
+#[derive(Debug)]
 pub struct Ephemeris(Files);
 
 impl Ephemeris {

@@ -12,7 +12,65 @@ use super::kept::KeptMotions;
 use super::members::Ensemble;
 use super::on_error::OnError;
 use super::options::once;
-use super::pool::MAX_THREADS;
+
+/// Gravity gradients and other torques. They are absent without the feature `torques`.
+#[cfg(feature = "torques")]
+impl Ensemble {
+    /// The bodies whose gravity gradients act on the members: those of all members, or those of each, as for [`Scene::disturbing`]. A member may have several, or none.
+    ///
+    /// What averaging leaves grows with time: without [`Ensemble::span`] the error bounds are those after 1e9 rotations. Which motions are served is known only
+    /// when they are solved.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Ensemble, Orbit};
+    /// let (moments, level) = (vec![[1.0, 1.02, 1.05]; 2], vec![[0.0, 0.0, 0.0, 1.0]; 2]);
+    /// let ensemble = Ensemble::new(moments, level, vec![[0.0, 0.01, 1.0]; 2])?;
+    /// let ensemble = ensemble.orbits(vec![Some(Orbit::new(2e-3, 0.1)?), None])?.span(0.0, 1e5);
+    /// let torques: Vec<f64> = ensemble.plans()?.iter().map(|plan| plan.torque()).collect();
+    /// assert!(torques[0] > 0.0 && torques[1] == 0.0);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`Error::Length`] for three elements and five members.
+    pub fn orbits<Bodies>(mut self, orbits: Vec<Bodies>) -> Result<Self, Error>
+    where
+        Bodies: IntoIterator<Item: Into<DisturbingBody>>,
+    {
+        if orbits.len() != 1 {
+            length("orbits", orbits.len(), self.len())?;
+        }
+        let listed = |bodies: Bodies| bodies.into_iter().map(Into::into).collect();
+        self.options.orbits = once(orbits.into_iter().map(listed).collect(), Vec::is_empty);
+        let options = self.options.clone();
+        Ok(self.each_member_scene(|index, scene| scene.disturbing(options.orbits(index).iter().cloned())))
+    }
+
+    /// Torques beside the gravity gradient on all members, as for [`Scene::torques`]: members with any of them are integrated.
+    ///
+    /// ```
+    /// use andoyer_propagate::torques::Torque;
+    /// use andoyer_propagate::{Ensemble, Method};
+    /// let (moments, level) = (vec![[1.0, 1.5, 2.0]; 2], vec![[0.0, 0.0, 0.0, 1.0]; 2]);
+    /// let ensemble = Ensemble::new(moments, level, vec![[0.1, 0.2, 1.0]; 2])?.span(0.0, 10.0);
+    /// let ensemble = ensemble.torques([Torque::constant([1e-3, 0.0, 0.0])?]);
+    /// assert_eq!(ensemble.plans()?[1].method(), Method::Integrated);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    #[must_use]
+    pub fn torques(mut self, torques: impl IntoIterator<Item = Torque>) -> Self {
+        self.options.torques = torques.into_iter().collect();
+        let torques = self.options.torques.clone();
+        self.each_scene(|scene| scene.torques(torques.clone()))
+    }
+
+    /// How much of the theory of the gravity gradient is used, as for [`Scene::level`].
+    #[must_use]
+    pub fn level(mut self, level: Level) -> Self {
+        self.options.level = level;
+        self.each_scene(|scene| scene.level(level))
+    }
+}
 
 impl Ensemble {
     /// The times of the states: one for all members, or one for each; 0 if this is not called.
@@ -73,61 +131,6 @@ impl Ensemble {
         self.each_scene(|scene| scene.method(method))
     }
 
-    /// The bodies whose gravity gradients act on the members: those of all members, or those of each, as for [`Scene::disturbing`]. A member may have several, or none.
-    ///
-    /// What averaging leaves grows with time: without [`Ensemble::span`] the error bounds are those after 1e9 rotations. Which motions are served is known only
-    /// when they are solved.
-    ///
-    /// ```
-    /// use andoyer_propagate::{Ensemble, Orbit};
-    /// let (moments, level) = (vec![[1.0, 1.02, 1.05]; 2], vec![[0.0, 0.0, 0.0, 1.0]; 2]);
-    /// let ensemble = Ensemble::new(moments, level, vec![[0.0, 0.01, 1.0]; 2])?;
-    /// let ensemble = ensemble.orbits(vec![Some(Orbit::new(2e-3, 0.1)?), None])?.span(0.0, 1e5);
-    /// let torques: Vec<f64> = ensemble.plans()?.iter().map(|plan| plan.torque()).collect();
-    /// assert!(torques[0] > 0.0 && torques[1] == 0.0);
-    /// # Ok::<(), andoyer_propagate::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// - [`Error::Length`] for three elements and five members.
-    pub fn orbits<Bodies>(mut self, orbits: Vec<Bodies>) -> Result<Self, Error>
-    where
-        Bodies: IntoIterator<Item: Into<DisturbingBody>>,
-    {
-        if orbits.len() != 1 {
-            length("orbits", orbits.len(), self.len())?;
-        }
-        let listed = |bodies: Bodies| bodies.into_iter().map(Into::into).collect();
-        self.options.orbits = once(orbits.into_iter().map(listed).collect(), Vec::is_empty);
-        let options = self.options.clone();
-        Ok(self.each_member_scene(|index, scene| scene.disturbing(options.orbits(index).iter().cloned())))
-    }
-
-    /// Torques beside the gravity gradient on all members, as for [`Scene::torques`]: members with any of them are integrated.
-    ///
-    /// ```
-    /// use andoyer_propagate::torques::Torque;
-    /// use andoyer_propagate::{Ensemble, Method};
-    /// let (moments, level) = (vec![[1.0, 1.5, 2.0]; 2], vec![[0.0, 0.0, 0.0, 1.0]; 2]);
-    /// let ensemble = Ensemble::new(moments, level, vec![[0.1, 0.2, 1.0]; 2])?.span(0.0, 10.0);
-    /// let ensemble = ensemble.torques([Torque::constant([1e-3, 0.0, 0.0])?]);
-    /// assert_eq!(ensemble.plans()?[1].method(), Method::Integrated);
-    /// # Ok::<(), andoyer_propagate::Error>(())
-    /// ```
-    #[must_use]
-    pub fn torques(mut self, torques: impl IntoIterator<Item = Torque>) -> Self {
-        self.options.torques = torques.into_iter().collect();
-        let torques = self.options.torques.clone();
-        self.each_scene(|scene| scene.torques(torques.clone()))
-    }
-
-    /// How much of the theory of the gravity gradient is used, as for [`Scene::level`].
-    #[must_use]
-    pub fn level(mut self, level: Level) -> Self {
-        self.options.level = level;
-        self.each_scene(|scene| scene.level(level))
-    }
-
     /// The times over which the tolerance is asked for and error bounds hold, as for [`Scene::span`](crate::Scene::span).
     #[must_use]
     pub fn span(mut self, start: f64, stop: f64) -> Self {
@@ -144,13 +147,6 @@ impl Ensemble {
         let scenes = std::mem::take(&mut self.scenes).into_iter().enumerate();
         self.scenes = scenes.map(|(index, scene)| scene.map(|scene| change(index, scene))).collect();
         self.kept = KeptMotions::default();
-        self
-    }
-
-    /// The number of threads, instead of one for each core.
-    #[must_use]
-    pub fn threads(mut self, threads: usize) -> Self {
-        self.options.threads = Some(threads);
         self
     }
 
@@ -214,7 +210,7 @@ impl Ensemble {
     /// # Errors
     /// - [`Error::Tolerance`] for `0.0`.
     /// - [`Error::Span`] for `(1.0, 0.0)`.
-    /// - [`Error::Threads`] for `0` and above [`MAX_THREADS`].
+    /// - [`Error::Threads`] for `0` and above 1024.
     pub fn validate(&self) -> Result<(), Error> {
         self.validate_threads()?;
         if let Some((start, stop)) = self.options.span
@@ -225,13 +221,6 @@ impl Ensemble {
         match self.options.tolerance {
             value if value.is_finite() && value > 0.0 => Ok(()),
             value => Err(Error::Tolerance { value }),
-        }
-    }
-
-    pub(super) fn validate_threads(&self) -> Result<(), Error> {
-        match self.options.threads {
-            None | Some(1..=MAX_THREADS) => Ok(()),
-            Some(value) => Err(Error::Threads { value, problem: format!("it must be from 1 to {MAX_THREADS}") }),
         }
     }
 }

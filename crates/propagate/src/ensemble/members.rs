@@ -2,8 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use andoyer_series::threads::shared;
-use rayon::prelude::*;
+use andoyer_series::threads::map;
 
 use crate::error::Error;
 use crate::input::body::Body;
@@ -154,11 +153,9 @@ impl Ensemble {
             true => Some((index, Error::Stopped)),
             false => self.scene(index).err().map(|problem| (index, problem)),
         };
-        let members = 0..self.len();
-        let bad: Vec<(usize, Error)> = shared(self.len() / BLOCK, |threads| match threads {
-            1 => members.filter_map(problems).collect(),
-            _ => members.into_par_iter().with_min_len(BLOCK).filter_map(problems).collect(),
-        });
+        let blocks: Vec<_> = (0..self.len()).step_by(BLOCK).collect();
+        let of_block = |first: usize| (first..self.len().min(first + BLOCK)).filter_map(problems).collect();
+        let bad: Vec<(usize, Error)> = map(blocks, of_block).into_iter().flat_map(Vec::into_iter).collect();
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Stopped);
         }

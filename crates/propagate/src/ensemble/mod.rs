@@ -12,6 +12,7 @@ mod members;
 mod motions;
 mod on_error;
 mod options;
+#[cfg_attr(not(feature = "rayon"), path = "one_thread.rs")]
 mod pool;
 mod run;
 mod scenes;
@@ -21,5 +22,6 @@ pub use distribution::TumblingMember;
 pub use kept::KEPT_MEMORY;
 pub use members::Ensemble;
 pub use on_error::OnError;
+#[cfg(feature = "rayon")]
 pub use pool::MAX_THREADS;
 pub use run::MembersRun;

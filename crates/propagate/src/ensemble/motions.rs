@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::error::Error;
 use crate::input::body::Body;
-use crate::input::options::{Method, Served};
+use crate::input::options::Served;
 use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::motion::solved::Motion;
@@ -29,12 +29,10 @@ impl Ensemble {
             None => Body::new(self.moments()[index])?,
         };
         let mut scene = Scene::new(body, state).tolerance(self.asked_tolerance()).method(self.asked_method());
-        scene = scene.level(self.asked_level());
-        if !self.orbits_of(index).is_empty() {
+        #[cfg(feature = "torques")]
+        {
+            scene = scene.level(self.asked_level()).torques(self.asked_torques().iter().cloned());
             scene = scene.disturbing(self.orbits_of(index).iter().cloned());
-        }
-        if !self.asked_torques().is_empty() {
-            scene = scene.torques(self.asked_torques().to_vec());
         }
         if let Some((start, stop)) = self.asked_span() {
             scene = scene.span(start, stop);
@@ -74,7 +72,7 @@ impl Ensemble {
             Some(Err(_)) => return false,
             None => (self.asked_method(), self.asked_torques()),
         };
-        !self.orbits_of(member).is_empty() || !torques.is_empty() || method == Method::Integrated
+        !self.orbits_of(member).is_empty() || !torques.is_empty() || method.is_integrated()
     }
 
     /// The motion of a member that is kept.

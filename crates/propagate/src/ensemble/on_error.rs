@@ -1,11 +1,9 @@
 //! What becomes of members that cannot be computed.
 
-use crate::error::Error;
-use crate::input::options::named;
+use crate::input::names::named;
 
 /// What becomes of a member that is no body or no state, or has no motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum OnError {
     /// The first one is the error of all.
@@ -15,4 +13,4 @@ pub enum OnError {
     Nan,
 }
 
-named!(OnError);
+named!(OnError: Raise = "raise", Nan = "nan");

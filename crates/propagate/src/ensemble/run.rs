@@ -5,7 +5,7 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use rayon::prelude::*;
+use andoyer_series::threads::map;
 
 use crate::error::Error;
 use crate::input::options::Convention;
@@ -19,7 +19,6 @@ use crate::simd::halt::GOING;
 
 use super::members::Ensemble;
 use super::on_error::OnError;
-use super::pool::on_threads;
 
 impl Ensemble {
     /// How its members are evaluated.
@@ -112,12 +111,9 @@ impl<'a> MembersRun<'a> {
             });
             plans
         };
-        let groups = 0..ensemble.len().div_ceil(size);
-        let plans = self.on_threads(|threads| match threads {
-            1 => groups.flat_map(plans).collect(),
-            _ => groups.into_par_iter().with_min_len(ensemble.block() / size).flat_map_iter(plans).collect(),
-        })?;
-        self.going().map(|()| plans)
+        let groups = (0..ensemble.len().div_ceil(size)).collect();
+        let plans: Vec<Vec<_>> = ensemble.on_threads(|| map(groups, plans))?;
+        self.going().map(|()| plans.into_iter().flatten().collect())
     }
 
     /// As [`Ensemble::attitudes_into`].
@@ -303,13 +299,6 @@ impl<'a> MembersRun<'a> {
         self.each_member(out.iter_mut(), evaluate, |slot| **slot = none)
     }
 
-    /// Shares work on the members among the threads, each with a block of them at least.
-    fn on_threads<R: Send>(&self, work: impl FnOnce(usize) -> R + Send) -> Result<R, Error> {
-        let Self { ensemble, .. } = *self;
-        ensemble.validate_threads()?;
-        on_threads(ensemble.asked_threads(), ensemble.len() / ensemble.block(), work)
-    }
-
     pub(super) fn batch<'m>(&'m self, motion: &'m Motion) -> Batch<'m> {
         let batch = motion.batch().until(self.stop);
         if self.since_epoch { batch.since_epoch() } else { batch }
@@ -364,11 +353,11 @@ impl<'a> MembersRun<'a> {
             outcome.refused(index, Error::of_member(index, refused))
         };
         let size = ensemble.group();
-        let all_told = |outcome: Outcome, (group, rows): (usize, &mut [Rows])| {
+        let all_told = |outcome: Outcome, first: usize, rows: &mut [Rows]| {
             if let Err(stopped) = self.going() {
                 return outcome.refused(0, stopped);
             }
-            let members = group * size..group * size + rows.len();
+            let members = first..first + rows.len();
             let count = rows.len();
             let (mut all, mut rows) = (outcome, members.clone().zip(rows.iter_mut()));
             ensemble.each_motion(members, self.stop, |motion| {
@@ -382,13 +371,13 @@ impl<'a> MembersRun<'a> {
             all
         };
         let mut rows: Vec<Rows> = rows.collect();
-        let outcome = self.on_threads(|threads| {
-            if threads == 1 {
-                return rows.chunks_mut(size).enumerate().fold(Outcome::default(), all_told);
-            }
-            let groups = rows.par_chunks_mut(size).enumerate().with_min_len(ensemble.block() / size);
-            groups.fold(Outcome::default, all_told).reduce(Outcome::default, Outcome::and)
-        })?;
+        let block = ensemble.block();
+        let of_block = |(index, rows): (usize, &mut [Rows])| {
+            let groups = rows.chunks_mut(size).enumerate();
+            groups.fold(Outcome::default(), |told, (group, rows)| all_told(told, index * block + group * size, rows))
+        };
+        let outcomes = ensemble.on_threads(|| map(rows.chunks_mut(block).enumerate().collect(), of_block))?;
+        let outcome = outcomes.into_iter().fold(Outcome::default(), Outcome::and);
         self.going()?;
         match ensemble.asked_on_error() {
             OnError::Nan => Ok(outcome),

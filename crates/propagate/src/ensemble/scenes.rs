@@ -50,9 +50,13 @@ impl Ensemble {
         let first = valid().next();
         let epoch = |scene| state(scene).or(first.map(|scene| *scene.state())).map_or(0.0, |state| state.epoch);
         let epochs: Vec<f64> = scenes.iter().map(epoch).collect();
+        let columns = if scenes.is_empty() { columns } else { columns.epochs(epochs)? };
+        #[cfg(feature = "torques")]
         let of_scene = |scene: &Scene| scene.asked_disturbing().to_vec();
+        #[cfg(feature = "torques")]
         let orbits = scenes.iter().map(|scene| scene.as_ref().ok().or(first).map_or(Vec::new(), of_scene));
-        let columns = if scenes.is_empty() { columns } else { columns.epochs(epochs)?.orbits(orbits.collect())? };
+        #[cfg(feature = "torques")]
+        let columns = if scenes.is_empty() { columns } else { columns.orbits(orbits.collect())? };
         let mut ensemble = columns.in_common(&valid().collect::<Vec<_>>());
         (ensemble.scenes, ensemble.on_error) = (scenes, on_error);
         ensemble.raise_bad_members(&GOING)?;
@@ -68,11 +72,14 @@ impl Ensemble {
         if others.iter().all(|scene| scene.asked_method() == first.asked_method()) {
             self = self.method(first.asked_method());
         }
-        if others.iter().all(|scene| scene.asked_level() == first.asked_level()) {
-            self = self.level(first.asked_level());
-        }
-        if others.iter().all(|scene| scene.asked_torques() == first.asked_torques()) {
-            self = self.torques(first.asked_torques().to_vec());
+        #[cfg(feature = "torques")]
+        {
+            if others.iter().all(|scene| scene.asked_level() == first.asked_level()) {
+                self = self.level(first.asked_level());
+            }
+            if others.iter().all(|scene| scene.asked_torques() == first.asked_torques()) {
+                self = self.torques(first.asked_torques().to_vec());
+            }
         }
         match first.asked_span() {
             Some((start, stop)) if others.iter().all(|scene| scene.asked_span() == first.asked_span()) => {

@@ -165,6 +165,7 @@ impl Body {
     /// assert_eq!(body.moments(), [5.0, 10.0, 13.0]);
     /// # Ok::<(), andoyer_propagate::Error>(())
     /// ```
+    #[doc(alias = "box")]
     pub fn cuboid(edges: [f64; 3], mass: f64) -> Result<Self, Error> {
         Self::homogeneous(["x", "y", "z"], edges, mass, 12.0)
     }

@@ -6,6 +6,7 @@ pub(crate) mod energy_loss;
 mod field_torque;
 pub(crate) mod gravity;
 mod gravity_torque;
+pub(crate) mod names;
 pub(crate) mod options;
 pub(crate) mod principal_axes;
 pub(crate) mod scene;

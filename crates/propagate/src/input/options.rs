@@ -1,39 +1,21 @@
 //! The options of a solution: method, averaging, level of the gravity-gradient theory, largest order.
 
-use serde::{Deserialize, Serialize};
+use super::names::named;
 
-use crate::error::Error;
-
-/// Reads and writes the names that serde gives the variants. The error of another name has the name of the type.
-macro_rules! named {
-    ($($type:ident),+) => {$(
-        impl std::str::FromStr for $type {
-            type Err = Error;
-
-            fn from_str(text: &str) -> Result<Self, Error> {
-                let name = serde::de::value::StrDeserializer::<serde::de::value::Error>::new(text);
-                serde::Deserialize::deserialize(name).map_err(|_| Error::$type { value: text.to_owned() })
-            }
-        }
-
-        impl std::fmt::Display for $type {
-            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                serde::Serialize::serialize(self, f)
-            }
-        }
-    )+};
-}
-
-pub(crate) use named;
-
-named!(Method, Convention, Level, Averaging);
+named!(
+    Method: Auto = "auto", Series = "series", Closed = "closed",
+    #[cfg(feature = "torques")] Integrated = "integrated",
+    #[cfg(feature = "torques")] Libration = "libration"
+);
+named!(Convention: ExtremalAxis = "extremal-axis", LongAxis = "long-axis", ShortAxis = "short-axis");
+named!(Level: Auto = "auto", Paper = "paper", Moving = "moving", Full = "full", SecondOrder = "second-order");
+named!(Averaging: Auto = "auto", Orbit = "orbit", Spin = "spin");
 
 /// The highest order of the series. It reaches σ/σ_sep = 0.66 for a tolerance of 1e-12.
 pub const MAX_ORDER: usize = 60;
 
 /// The formulas that evaluate a motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
     /// The cheapest method that meets the tolerance.
@@ -44,14 +26,30 @@ pub enum Method {
     /// The closed form with theta functions.
     Closed,
     /// Numerical integration of the full equations over the span.
+    #[cfg(feature = "torques")]
     Integrated,
     /// The normal form about a spin–orbit resonance.
+    #[cfg(feature = "torques")]
     Libration,
 }
 
+impl Method {
+    /// Whether the motion is integrated.
+    pub(crate) fn is_integrated(self) -> bool {
+        #[cfg(feature = "torques")]
+        return self == Self::Integrated;
+        #[cfg(not(feature = "torques"))]
+        false
+    }
+
+    /// Whether it is a method of motions under torques.
+    pub(crate) fn is_of_torques(self) -> bool {
+        !matches!(self, Self::Auto | Self::Series | Self::Closed)
+    }
+}
+
 /// The axis whose precession and rotation a pair of periods describes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Convention {
     /// The axis around which the angular momentum circles: the short axis in the short-axis mode, the long axis in the long-axis mode. Light-curve papers use
@@ -70,8 +68,7 @@ impl Convention {
 }
 
 /// How much of the theory of the gravity gradient is used.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Level {
     /// [`Level::Full`] where it meets the tolerance, else [`Level::SecondOrder`] where its error bound is smaller.
@@ -88,8 +85,7 @@ pub enum Level {
 }
 
 /// The averaging of the equations of motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Averaging {
     /// The cheapest averaging that meets the tolerance.

@@ -84,6 +84,31 @@ impl Scene {
         self
     }
 
+    /// Sets the first and the last time at which the tolerance must hold. The default is any time within 1e9 rotations.
+    #[must_use]
+    pub fn span(mut self, start: f64, stop: f64) -> Self {
+        self.span = Some((start, stop));
+        self
+    }
+
+    /// Sets a name. The name is only printed.
+    #[must_use]
+    pub fn name(mut self, name: &str) -> Self {
+        self.name = Some(name.to_owned());
+        self
+    }
+
+    /// Sets the source of the figures. The source is only written to files.
+    #[must_use]
+    pub fn source(mut self, source: &str) -> Self {
+        self.source = Some(source.to_owned());
+        self
+    }
+}
+
+/// Gravity gradients and other torques. They are absent without the feature `torques`.
+#[cfg(feature = "torques")]
+impl Scene {
     /// Sets the orbit of a body whose gravity gradient acts. The default is no such body.
     #[must_use]
     pub fn orbit(self, orbit: Orbit) -> Self {
@@ -127,28 +152,9 @@ impl Scene {
         self.level = level;
         self
     }
+}
 
-    /// Sets the first and the last time at which the tolerance must hold. The default is any time within 1e9 rotations.
-    #[must_use]
-    pub fn span(mut self, start: f64, stop: f64) -> Self {
-        self.span = Some((start, stop));
-        self
-    }
-
-    /// Sets a name. The name is only printed.
-    #[must_use]
-    pub fn name(mut self, name: &str) -> Self {
-        self.name = Some(name.to_owned());
-        self
-    }
-
-    /// Sets the source of the figures. The source is only written to files.
-    #[must_use]
-    pub fn source(mut self, source: &str) -> Self {
-        self.source = Some(source.to_owned());
-        self
-    }
-
+impl Scene {
     /// The same scene about the principal axes of its body. `turn` is the rotation from components about principal axes to the user's.
     pub(crate) fn about_principal_axes(&self, turn: UnitQuaternion<f64>) -> Self {
         let State { epoch, attitude, angular_velocity } = self.state;

@@ -6,9 +6,8 @@
 
 use std::sync::atomic::AtomicBool;
 
-use andoyer_series::threads::shared;
+use andoyer_series::threads::map;
 use pulp::Arch;
-use rayon::prelude::*;
 
 use super::bound::{MeasuredSteps, Profile};
 use super::integrated::{Integrated, MeasuredMotion, Problem};
@@ -43,25 +42,17 @@ pub(crate) fn several(scenes: &[(&Scene, &str)], served: Served, stop: &AtomicBo
         };
         Integrated::of(problem, scene, Result::and_then(first, better), (served, stop))
     };
-    each(first.into_iter().zip(second).enumerate().collect(), finished)
+    map(first.into_iter().zip(second).enumerate().collect(), finished)
 }
 
 /// A motion, if the lanes serve it.
 type Found = Option<Result<MeasuredMotion, Error>>;
 
-/// Maps items, on several threads where these are free.
-fn each<T: Send, R: Send>(items: Vec<T>, function: impl Fn(T) -> R + Sync + Send) -> Vec<R> {
-    shared(items.len(), |threads| match threads {
-        1 => items.into_iter().map(function).collect(),
-        _ => items.into_par_iter().map(function).collect(),
-    })
-}
-
 /// The motions that the lanes serve, with their error bounds.
 fn measured(served: &[Option<LaneProblem<'_>>], stop: &AtomicBool) -> Vec<Found> {
     let mut found = in_lanes(&served.iter().flatten().copied().collect::<Vec<_>>(), stop).into_iter();
     let found = served.iter().map(|served| served.and_then(|served| Some((served, found.next()??))));
-    each(found.collect(), |found: Option<(LaneProblem<'_>, MeasuredSides)>| {
+    map(found.collect(), |found: Option<(LaneProblem<'_>, MeasuredSides)>| {
         found.map(|(served, sides)| served.measured(sides, stop))
     })
 }

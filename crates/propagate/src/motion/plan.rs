@@ -5,7 +5,6 @@ use std::fmt;
 
 use andoyer_series::error::Short;
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 
 use super::verification_cost::VerificationCost;
 use crate::error::duration_in_words;
@@ -24,7 +23,8 @@ pub(crate) const ROUNDED_TOLERANCE: f64 = 2e-14;
 pub(crate) const LONGEST_VERIFICATION: f64 = 60.0;
 
 /// The entries of a plan that concern the gravity gradient.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct GradientPlan {
     pub(crate) averaging: Averaging,
     pub(crate) level: Level,
@@ -37,23 +37,25 @@ pub(crate) struct GradientPlan {
 }
 
 /// The entries of a plan about an integration.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct IntegrationPlan {
     pub(crate) steps: usize,
     pub(crate) bodies: usize,
     /// The number of torques beside the gravity gradient.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub(crate) torques: usize,
     /// The error bound without the interpolation of tables, where it is less than half of the whole and the whole exceeds the tolerance \[rad\].
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub(crate) uninterpolated: Option<f64>,
     /// The first and the last time at which the error bound is below half a turn, where these are not the ends of the span.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub(crate) known: Option<[f64; 2]>,
 }
 
 /// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Plan {
     pub(crate) mode: Mode,
     pub(crate) method: Method,
@@ -271,7 +273,7 @@ impl Plan {
     /// It is `None` on the separatrix, where the frequencies have no derivatives.
     pub fn partials(&self) -> Option<&'static str> {
         match (self.mode, self.method, self.gradient) {
-            (_, Method::Integrated | Method::Libration, _) | (_, _, Some(_)) => Some("variational"),
+            (_, method, gradient) if method.is_of_torques() || gradient.is_some() => Some("variational"),
             (Mode::Separatrix, _, None) => None,
             _ if self.expanded => Some("series"),
             _ => Some("closed"),
@@ -295,7 +297,9 @@ impl fmt::Display for Plan {
             ratio => writeln!(f, "separatrix    {ratio:.3e} (sigma/sigma_sep)")?,
         }
         match self.method {
-            Method::Series | Method::Integrated | Method::Libration => writeln!(f, "order         {}", self.order)?,
+            method if method == Method::Series || method.is_of_torques() => {
+                writeln!(f, "order         {}", self.order)?
+            }
             _ => writeln!(f, "order         -")?,
         }
         match self.harmonics {

@@ -32,6 +32,7 @@ pub struct Sample {
 
 /// Mean frequencies of a motion [rad per unit of time].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Frequencies {
     /// dℓ′/dt, the motion along the polhode in the body. It is negative in the long-axis mode and 0 on the separatrix.
     pub anomaly: f64,
@@ -41,6 +42,7 @@ pub struct Frequencies {
 
 /// A pair of mean periods [unit of time]: of the precession about the angular momentum, and of the rotation or oscillation about the body's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Periods {
     /// P_φ, the period of the precession of the axis.
     pub precession: f64,
@@ -190,6 +192,24 @@ impl Motion {
     pub fn scene_at(&self, time: f64) -> Result<Scene, Error> {
         let Sample { time: epoch, attitude, angular_velocity } = self.at(time)?;
         self.scene().with_state(State { epoch, attitude, angular_velocity }).into_validated()
+    }
+
+    /// The attitudes [x, y, z, w] at many times. [`Motion::attitudes_into`] writes them to a slice.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0])?;
+    /// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).solve()?;
+    /// let [_, half] = motion.attitudes(&[0.0, std::f64::consts::PI])?[..] else { unreachable!() };
+    /// assert!((half[2] - 1.0).abs() < 1e-15); // half a turn about axis 3
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`Error::Time`] as for [`Motion::at`], with the index of the time.
+    pub fn attitudes(&self, times: &[f64]) -> Result<Vec<[f64; 4]>, Error> {
+        let mut attitudes = vec![[0.0; 4]; times.len()];
+        self.attitudes_into(times, &mut attitudes).map(|()| attitudes)
     }
 
     /// Writes the attitudes [x, y, z, w] at many times to `out`, without an allocation.

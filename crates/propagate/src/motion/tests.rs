@@ -1,6 +1,8 @@
 //! Kernels of every available instruction set, compared with a reference in double-double and with each other.
 
 use andoyer_double::DoubleDouble;
+#[cfg(feature = "rayon")]
+use andoyer_series::threads::on_own;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use pulp::Arch;
 
@@ -264,6 +266,7 @@ fn levels_with_fused_additions_give_the_same_bits() {
     }
 }
 
+#[cfg(feature = "rayon")]
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let mut draw = Draw(6);
@@ -272,9 +275,8 @@ fn any_number_of_threads_gives_the_same_bits() {
     for times in [uneven(&mut draw, size), (0..size).map(|k| 7.0 + 0.01 * k as f64).collect()] {
         let one = both(&trajectory, Arch::new(), &times, 1);
         // The pool of a small machine has too few threads to divide the times so often.
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(5).build().expect("threads");
         for threads in [2, 3, 5] {
-            assert!(pool.install(|| both(&trajectory, Arch::new(), &times, threads)) == one, "{threads}");
+            assert!(on_own(5, || both(&trajectory, Arch::new(), &times, threads)).as_ref() == Ok(&one), "{threads}");
         }
     }
 }

@@ -12,7 +12,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use andoyer_series::threads::shared;
+use andoyer_series::threads::{join, shared};
 use pulp::Arch;
 
 use super::forced::Forced;
@@ -106,7 +106,7 @@ impl Evaluation<'_> {
         let place = (times.len() / threads * half).next_multiple_of(GROUP).min(times.len());
         let (left, right) = times.split_at(place);
         let (left_outputs, right_outputs) = outputs.split_at(place);
-        let (first, second) = rayon::join(
+        let (first, second) = join(
             || self.spread(left, left_outputs, grid, half),
             || self.spread(right, right_outputs, grid, threads - half),
         );

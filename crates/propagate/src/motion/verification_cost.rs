@@ -2,8 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use serde::{Deserialize, Serialize};
-
 use crate::input::scene::Scene;
 
 /// Time of one step and of its part of the error bound \[s\], and what each disturbing body adds: rough values from a busy machine, which no command measures yet.
@@ -13,7 +11,8 @@ const SECONDS: [f64; 2] = [4e-6, 3e-6];
 const STEPS_A_RADIAN: f64 = 2.0;
 
 /// The cost of a verification.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct VerificationCost {
     /// Steps before and after the epoch together, at most about.
     pub(crate) steps: f64,

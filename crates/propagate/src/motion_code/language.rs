@@ -1,11 +1,9 @@
 //! The languages of the emitted code.
 
-use crate::error::Error;
-use crate::input::options::named;
+use crate::input::names::named;
 
 /// A language that [`Motion::to_code`](crate::Motion::to_code) writes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CodeLanguage {
     /// C99 with `math.h`; without allocation.
@@ -18,4 +16,4 @@ pub enum CodeLanguage {
     JavaScript,
 }
 
-named!(CodeLanguage);
+named!(CodeLanguage: C = "c", Rust = "rust", Python = "python", JavaScript = "javascript");

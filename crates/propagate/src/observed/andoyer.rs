@@ -32,14 +32,19 @@ impl Scene {
     /// # Ok::<(), andoyer_propagate::Error>(())
     /// ```
     pub fn from_andoyer(body: Body, variables: [f64; 6], epoch: f64) -> Result<Self, Error> {
-        Self::from_andoyer_with(body, variables, epoch, Vec::new())
+        Self::of_andoyer(body, variables, epoch, &[])
     }
 
     /// The scene of [`Scene::from_andoyer`] with torques. The variables include the angular momentum of rotors, as those of [`Motion::andoyer`](crate::Motion::andoyer) do.
     ///
     /// # Errors
     /// As [`Scene::from_andoyer`].
+    #[cfg(feature = "torques")]
     pub fn from_andoyer_with(body: Body, variables: [f64; 6], epoch: f64, torques: Vec<Torque>) -> Result<Self, Error> {
+        Self::of_andoyer(body, variables, epoch, &torques).map(|scene| scene.torques(torques))
+    }
+
+    fn of_andoyer(body: Body, variables: [f64; 6], epoch: f64, torques: &[Torque]) -> Result<Self, Error> {
         let refused =
             |index: usize, bound: &str| Error::Andoyer { index, value: variables[index], bound: bound.to_owned() };
         if let Some(index) = variables.iter().position(|value| !value.is_finite()) {
@@ -71,8 +76,8 @@ impl Scene {
         let attitude = about(node) * inclination * about(angle) * tilt * about(spin) * frame.quaternion;
         let direction = frame.user([sine * spin.sin(), sine * spin.cos(), cosine]);
         let turn = body.turn().unwrap_or_else(UnitQuaternion::identity);
-        let rotors = turn.inverse() * rotors(&torques);
+        let rotors = turn.inverse() * rotors(torques);
         let rates = Vector3::from_fn(|axis, _| (momentum * direction[axis] - rotors[axis]) / moments[axis]);
-        Ok(scene_about_principal_axes(body, epoch, attitude, rates).torques(torques))
+        Ok(scene_about_principal_axes(body, epoch, attitude, rates))
     }
 }

@@ -10,7 +10,7 @@
 //! Attitude, rates and the numbers of theory §12 are computed with a time in each lane, the matrices ([`super::matrices`]) with a parameter in each lane. All
 //! quantities are in units of M = 1 and of the scaled time.
 
-use andoyer_series::threads::shared;
+use andoyer_series::threads::{map, shared};
 use nalgebra::UnitQuaternion;
 use pulp::Arch;
 
@@ -63,12 +63,10 @@ impl Target<'_> {
                 return;
             }
             let part = length.div_ceil(threads).next_multiple_of(WIDEST);
-            rayon::scope(|scope| {
-                let outputs = attitudes.chunks_mut(part).zip(rates.chunks_mut(part));
-                for (times, (attitudes, rates)) in self.times.chunks(part).zip(outputs) {
-                    let target = Target { times, ..self };
-                    scope.spawn(move |_| dispatch(Arch::new(), TargetRun { target, source, attitudes, rates }));
-                }
+            let outputs = attitudes.chunks_mut(part).zip(rates.chunks_mut(part));
+            map(self.times.chunks(part).zip(outputs).collect(), |(times, (attitudes, rates))| {
+                let target = Target { times, ..self };
+                dispatch(Arch::new(), TargetRun { target, source, attitudes, rates });
             });
         });
     }

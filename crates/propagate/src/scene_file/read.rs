@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
-use super::problem::Refusal;
+use super::refusal::Refusal;
 use super::tables::{
     BodyTable, FieldTable, GravityTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable, SourceTable, StateTable,
     TorqueTable,
@@ -48,12 +48,19 @@ impl SceneTable {
         if let Some(source) = &self.source {
             scene = scene.source(source);
         }
-        let scene = scene
-            .method(self.method.unwrap_or_default())
-            .averaging(self.averaging.unwrap_or_default())
-            .level(self.level.unwrap_or_default());
+        let scene = scene.method(self.method.unwrap_or_default());
         let torques = self.torque.into_iter().map(TorqueTable::torque).collect::<Result<Vec<_>, _>>()?;
-        let scene = scene.disturbing(bodies).torques(torques);
+        #[cfg(feature = "torques")]
+        let scene = {
+            let (averaging, level) = (self.averaging.unwrap_or_default(), self.level.unwrap_or_default());
+            scene.averaging(averaging).level(level).disturbing(bodies).torques(torques)
+        };
+        #[cfg(not(feature = "torques"))]
+        for (key, given) in [("orbit", !bodies.is_empty()), ("torque", !torques.is_empty())] {
+            if given {
+                return Err(Refusal::new(key, "acts, and this build has the feature \"torques\" left out", "absent"));
+            }
+        }
         scene.validate()?;
         Ok(scene)
     }
@@ -87,12 +94,12 @@ impl StateTable {
             _ => return Err(refused("a quaternion [x, y, z, w], or three angles")),
         };
         let relative = self.relative.unwrap_or(true);
-        Ok(Scene::from_orbital(body, bodies.to_vec(), &frame, attitude, self.angular_velocity.into(), relative, epoch)?)
+        Ok(Scene::against(body, bodies, &frame, attitude, self.angular_velocity.into(), relative, epoch)?)
     }
 }
 
 impl TorqueTable {
-    fn torque(self) -> Result<Torque, Refusal> {
+    pub(super) fn torque(self) -> Result<Torque, Refusal> {
         if self.dissipation.is_some() {
             let bound = "absent: inner friction is a function, and a file holds none";
             return Err(Refusal::new("torque.dissipation", &format!("must be {bound}"), bound));
@@ -151,7 +158,7 @@ impl SourceTable {
 }
 
 impl BodyTable {
-    fn body(self) -> Result<Body, Refusal> {
+    pub(super) fn body(self) -> Result<Body, Refusal> {
         let body = match (self.moments, self.named, self.inertia) {
             (Some(moments), None, None) => Body::new(moments)?,
             (None, Some(name), None) => Body::named(&name)?,
@@ -183,7 +190,7 @@ impl BodyTable {
 }
 
 impl GravityTable {
-    fn field(self) -> Result<Gravity, Refusal> {
+    pub(super) fn field(self) -> Result<Gravity, Refusal> {
         let named: Vec<(&str, f64)> = self.coefficients.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let field = Gravity::new(&named, self.radius)?;
         Ok(match self.inertia_factor {
@@ -227,7 +234,7 @@ impl OrbitTables {
 }
 
 impl OrbitTable {
-    fn body(self) -> Result<DisturbingBody, Refusal> {
+    pub(super) fn body(self) -> Result<DisturbingBody, Refusal> {
         if self.times.is_none() && self.positions.is_none() && self.velocities.is_none() && self.gm.is_none() {
             return self.orbit().map(DisturbingBody::from);
         }

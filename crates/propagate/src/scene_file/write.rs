@@ -48,7 +48,7 @@ impl SceneTable {
 }
 
 impl TorqueTable {
-    fn of(torque: &Torque) -> Self {
+    pub(super) fn of(torque: &Torque) -> Self {
         let none = Self::default();
         match torque {
             Torque::Constant(torque) => Self { constant: Some(*torque), ..none },
@@ -98,7 +98,7 @@ impl SourceTable {
 }
 
 impl BodyTable {
-    fn of(body: &Body) -> Self {
+    pub(super) fn of(body: &Body) -> Self {
         let tensor = body.has_tensor();
         Self {
             moments: (!tensor).then(|| body.moments()),
@@ -111,7 +111,7 @@ impl BodyTable {
 }
 
 impl GravityTable {
-    fn of(gravity: &Gravity) -> Self {
+    pub(super) fn of(gravity: &Gravity) -> Self {
         Self {
             radius: gravity.radius(),
             inertia_factor: gravity.asked_inertia_factor(),
@@ -121,14 +121,14 @@ impl GravityTable {
 }
 
 impl OrbitTable {
-    fn of(body: &DisturbingBody) -> Self {
+    pub(super) fn of(body: &DisturbingBody) -> Self {
         match body {
             DisturbingBody::Orbit(orbit) => Self::of_orbit(orbit),
             DisturbingBody::Tabulated(table) => Self::of_table(table),
         }
     }
 
-    fn of_table(table: &TabulatedOrbit) -> Self {
+    pub(super) fn of_table(table: &TabulatedOrbit) -> Self {
         Self {
             times: Some(table.times().to_vec()),
             positions: Some(table.positions().to_vec()),
@@ -138,7 +138,7 @@ impl OrbitTable {
         }
     }
 
-    fn of_orbit(orbit: &Orbit) -> Self {
+    pub(super) fn of_orbit(orbit: &Orbit) -> Self {
         let [mean_motion, eccentricity, time_of_pericentre, inclination, node, argument_of_pericentre, mass_fraction] =
             orbit.elements().map(Some);
         let [node_rate, pericentre_rate] = orbit.rates().map(|rate| (rate != 0.0).then_some(rate));

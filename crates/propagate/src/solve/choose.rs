@@ -2,8 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use andoyer_series::threads::shared;
-use rayon::prelude::*;
+use andoyer_series::threads::map;
 
 use super::free::{self, Preparation};
 use super::{averaged, integrated, libration};
@@ -93,10 +92,7 @@ pub(super) fn motions(
     stop: &AtomicBool,
 ) -> Vec<Result<Motion, Error>> {
     let choose = |scene: Result<Scene, Error>| choice(scene?, stop);
-    let choices: Vec<_> = shared(scenes.len(), |threads| match threads {
-        1 => scenes.into_iter().map(choose).collect(),
-        _ => scenes.into_par_iter().map(choose).collect(),
-    });
+    let choices = map(scenes, choose);
     let chosen = choices.iter().filter_map(|choice| match choice {
         Ok(Choice::Integrate(chosen)) => Some((&chosen.scene, &chosen.reason[..])),
         _ => None,

@@ -131,9 +131,9 @@ fn wobbling(scene: Scene, preparation: Preparation, polhode: &Polhode, mode: Mod
     let ratio = (exact.kappa_sigma / polhode.invariants.kappa / polhode.separatrix_action()).min(1.0);
     let by_series = match scene.asked_method() {
         Method::Series => true,
-        Method::Closed | Method::Integrated | Method::Libration => false,
         // A fixed order is one of the series.
         Method::Auto => scene.asked_order().is_some() && mode != Mode::Axisymmetric,
+        _ => false,
     };
     let solution = if by_series {
         by_the_series(&scene, polhode, exact, ratio, mode)?

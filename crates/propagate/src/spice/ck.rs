@@ -8,7 +8,6 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::nodes::{KernelSource, ROTATIONS, Sampled, estimate, even, nodes, window_count};
 use super::options::{KernelOptions, WriteError, Written, beside};
-use crate::input::options::Method;
 use crate::motion::solved::Motion;
 use crate::torque_free::mode::Mode;
 
@@ -55,7 +54,7 @@ impl Motion {
             let mut daf = Daf::ck(BufWriter::new(file), &comments)?;
             let steady = matches!(self.plan().mode(), Mode::PrincipalAxis | Mode::Spherical | Mode::AtRest)
                 && self.scene().asked_disturbing().is_empty()
-                && self.plan().method() != Method::Integrated;
+                && !self.plan().method().is_integrated();
             // The rate of a user's clock may change within a record of type 2.
             let written = if steady && options.ticks.is_none() {
                 writer.uniform(&mut daf, &mut options)?

@@ -40,6 +40,14 @@ pub struct KernelOptions<'a> {
     pub progress: Box<Progress<'a>>,
 }
 
+impl std::fmt::Debug for KernelOptions<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut fields = f.debug_struct("KernelOptions");
+        fields.field("zero", &self.zero).field("interpolation_error", &self.interpolation_error);
+        fields.field("force", &self.force).field("comments", &self.comments).finish_non_exhaustive()
+    }
+}
+
 impl Default for KernelOptions<'_> {
     fn default() -> Self {
         let progress = Box::new(|_, _| ControlFlow::Continue(()));

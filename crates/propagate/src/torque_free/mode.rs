@@ -1,6 +1,5 @@
 //! The modes of free rotation (theory §5).
 
-use std::fmt;
 use std::str::FromStr;
 
 use andoyer_double::DoubleDouble;
@@ -8,10 +7,10 @@ use andoyer_double::DoubleDouble;
 use super::error_budget::COSINE_ROUNDING;
 use super::polhode::{Polhode, SMALLEST_TILT};
 use crate::error::Error;
+use crate::input::names::names;
 
 /// The mode of a motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Mode {
     /// Triaxial body that rotates about its axis of greatest inertia with a wobble.
@@ -30,22 +29,18 @@ pub enum Mode {
     AtRest,
 }
 
-impl fmt::Display for Mode {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        serde::Serialize::serialize(self, f)
-    }
-}
+names!(
+    Mode: ShortAxis = "short-axis", LongAxis = "long-axis", Separatrix = "separatrix", Axisymmetric = "axisymmetric",
+    Spherical = "spherical", PrincipalAxis = "principal-axis", AtRest = "at-rest"
+);
 
 impl FromStr for Mode {
     type Err = Error;
 
     /// Reads "short-axis" or "long-axis", the two modes that have periods.
     fn from_str(text: &str) -> Result<Self, Error> {
-        match text {
-            "short-axis" => Ok(Self::ShortAxis),
-            "long-axis" => Ok(Self::LongAxis),
-            _ => Err(Error::ModeName { value: text.to_owned() }),
-        }
+        let with_periods = |mode: &Self| matches!(mode, Self::ShortAxis | Self::LongAxis);
+        Self::of_name(text).filter(with_periods).ok_or_else(|| Error::ModeName { value: text.to_owned() })
     }
 }
 

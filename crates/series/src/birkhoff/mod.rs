@@ -13,11 +13,13 @@
 //! (1999) 189.
 
 pub(crate) mod actions;
+#[cfg(feature = "code")]
 pub(crate) mod code;
 pub(crate) mod diagonal;
 pub(crate) mod domain;
 mod exact_spectrum;
 pub(crate) mod flow;
+#[cfg(feature = "serde")]
 pub(crate) mod json;
 pub(crate) mod map;
 pub(crate) mod matrix;
@@ -35,6 +37,7 @@ pub(crate) mod text;
 mod transformation;
 mod univariate;
 pub(crate) mod variables;
+#[cfg(feature = "serde")]
 pub(crate) mod verify;
 mod williamson;
 

@@ -5,7 +5,7 @@ use super::printer::{Printer, RoutinePrinter, marked};
 use super::routine::{Argument, Results, Routine};
 
 /// C99 with `math.h`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct C;
 
 impl Printer for C {

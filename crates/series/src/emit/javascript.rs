@@ -4,7 +4,7 @@ use super::constant::Numbers;
 use super::printer::{Printer, marked};
 
 /// JavaScript of 2015 or later.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct JavaScript;
 
 impl Printer for JavaScript {

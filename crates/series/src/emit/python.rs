@@ -5,7 +5,7 @@ use super::printer::{Printer, RoutinePrinter, marked};
 use super::routine::{Argument, Results, Routine};
 
 /// Python 3.9 or later with its module `math` only.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Python;
 
 impl Printer for Python {

@@ -5,7 +5,7 @@ use super::printer::{Printer, RoutinePrinter, marked};
 use super::routine::{Argument, Results, Routine};
 
 /// Rust with its standard library only.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Rust;
 
 impl Printer for Rust {

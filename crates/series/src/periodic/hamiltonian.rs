@@ -64,11 +64,20 @@ const CLOSED_AT: f64 = 1.0;
 const CLOSED: f64 = 1e-9;
 
 /// A polynomial Hamiltonian whose coefficients are functions of the driven phases.
+#[derive(Clone)]
 pub struct SampledHamiltonian<F> {
     pairs: usize,
     samples: F,
     harmonics: Vec<usize>,
     start: Option<Vec<f64>>,
+}
+
+impl<F> std::fmt::Debug for SampledHamiltonian<F> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut fields = f.debug_struct("SampledHamiltonian");
+        fields.field("pairs", &self.pairs).field("harmonics", &self.harmonics).field("start", &self.start);
+        fields.finish_non_exhaustive()
+    }
 }
 
 impl<F: Fn(&[f64]) -> Result<Vec<(Monomial, f64)>, Error> + Sync> SampledHamiltonian<F> {

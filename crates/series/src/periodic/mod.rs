@@ -3,10 +3,11 @@
 //! `row` is a coefficient that is a periodic function, held at the times of a `grid`. `motion` finds the periodic motion, `frame` Floquet's frame about it, from a `start` by the
 //! matrix of `monodromy`, with the frequencies of a `branch`; `work` is counted.
 //! `search` begins at the equilibrium, at an `orbit` from a known state or at a neighbouring rate. `form` expands the Hamiltonian there and normalizes it with the `divisors`; `images` are the old variables in the new ones. `state` transforms states,
-//! `fourier` gives the motion at fixed actions, `transport` expresses functions. `named` has the names of variables and phases, text and JSON, `code` the source text.
+//! `fourier` gives the motion at fixed actions, `transport` expresses functions. `named` has the names of variables and phases, and text, `json` has JSON, `code` the source text.
 //! `hamiltonian` has what a form needs of a Hamiltonian, [`DrivenHamiltonian`], and one that is a polynomial.
 
 mod branch;
+#[cfg(feature = "code")]
 mod code;
 mod divisors;
 mod form;
@@ -15,6 +16,8 @@ mod frame;
 mod grid;
 mod hamiltonian;
 mod images;
+#[cfg(feature = "serde")]
+mod json;
 mod monodromy;
 mod motion;
 mod named;

@@ -14,8 +14,7 @@ use super::pause::{PRODUCTS_PER_PAUSE, Pause};
 use super::piece::{Collection, Piece};
 use super::store::{Array, Store, Table};
 use crate::error::Error;
-use crate::threads::shared;
-use rayon::prelude::*;
+use crate::threads::{map, shared, sort};
 
 /// Smallest number of products for which several threads are used.
 const PARALLEL_PRODUCTS: usize = 1 << 18;
@@ -207,8 +206,11 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
             }
         }
         sums.retain(|&code| code > whole.low && code < whole.high);
-        let sortable = if pairs < PARALLEL_PRODUCTS { 1 } else { usize::MAX };
-        shared(sortable, |threads| if threads > 1 { sums.par_sort_unstable() } else { sums.sort_unstable() });
+        if pairs < PARALLEL_PRODUCTS {
+            sums.sort_unstable()
+        } else {
+            sort(&mut sums)
+        }
         let mut boundaries = vec![whole.low];
         boundaries.extend((1..count).filter_map(|at| sums.get(at * sums.len() / count)));
         boundaries.push(whole.high);
@@ -262,7 +264,7 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
                 held().push(store);
                 Ok(())
             };
-            shared(threads, |_| windows.par_iter().zip(pieces).with_max_len(1).try_for_each(each))
+            map(windows.iter().zip(pieces).collect(), each).into_iter().collect::<Result<(), Error>>()
         };
         let in_batch = threads * WINDOWS_PER_BATCH[usize::from(!A::LIGHT)];
         let mut pieces: Vec<_> = std::iter::repeat_with(Piece::new).take(in_batch.min(windows.len())).collect();

@@ -1,8 +1,6 @@
 //! The terms of a sum: those of one window, and those of all windows in one pair of arrays.
 
-use rayon::prelude::*;
-
-use crate::threads::shared;
+use crate::threads::map;
 
 /// The terms of a part of the result, in the order of their codes.
 pub(super) struct Piece<V> {
@@ -64,10 +62,7 @@ impl<V: Clone + Send + Sync> Collection<V> {
             values.clone_from_slice(&piece.values);
             piece.clear();
         };
-        shared(places.len(), |threads| match threads {
-            1 => places.into_iter().for_each(copy),
-            _ => places.into_par_iter().for_each(copy),
-        });
+        map(places, copy);
         self.terms += added;
     }
 

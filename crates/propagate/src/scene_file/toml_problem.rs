@@ -3,75 +3,17 @@
 use serde_path_to_error::Segment;
 use toml::{Table, Value};
 
+use super::refusal::Refusal;
 use crate::error::{Error, Value as Fact};
 
 /// The keys of times, which a file gives as numbers and not as dates.
 const TIMES: [&str; 6] =
     ["epoch", "span", "periods.precession", "periods.rotation", "orbit.time_of_pericentre", "orbit.times"];
 
-/// A value that a scene cannot have, with its key.
-pub(super) struct Refusal {
-    key: String,
-    problem: String,
-    value: Option<Fact>,
-    bound: Option<Fact>,
-}
-
-impl Refusal {
-    /// A problem of the file itself. The value is that of the key.
-    pub(super) fn new(key: &str, problem: &str, bound: &str) -> Self {
-        Self { key: key.to_owned(), problem: problem.to_owned(), value: None, bound: Some(bound.into()) }
-    }
-
-    /// The same under a key of another table.
-    pub(super) fn under(self, table: &str) -> Self {
-        Self { key: format!("{table}.{}", self.key), ..self }
-    }
-
-    pub(super) fn missing(key: &str) -> Self {
-        Self::new(key, "is missing, and a scene must have it", "present")
-    }
-
-    /// A value that a constructor refuses, under its key in the file.
-    pub(super) fn of(error: &Error) -> Self {
-        let key = match error {
-            Error::Orbit { argument, .. }
-            | Error::Table { argument, .. }
-            | Error::Length { argument, .. }
-            | Error::TooFew { argument, .. } => &format!("orbit.{argument}"),
-            Error::OrbitalFrame { argument: "orbit", .. } => "orbit",
-            Error::OrbitalFrame { argument, .. } => &format!("state.{argument}"),
-            Error::Torque { .. } | Error::Series(_) => "torque",
-            Error::Averaging { .. } => "averaging",
-            Error::Level { .. } => "level",
-            Error::Moment { .. } | Error::MomentsTriangle { .. } | Error::MomentsRatio { .. } => "body.moments",
-            Error::InertiaSymmetry { .. } | Error::InertiaMoments { .. } => "body.inertia",
-            Error::Positive { argument, .. } | Error::Direction { argument, .. } => &format!("periods.{argument}"),
-            Error::PeriodRatio { .. } => "periods.rotation",
-            Error::Latitude { .. } => "periods.momentum_direction",
-            Error::ModeName { .. } | Error::NoSuchMode { .. } => "periods.mode",
-            Error::UnknownBody { .. } => "body.named",
-            Error::Attitude { .. } => "state.attitude",
-            Error::AngularVelocity { .. } => "state.angular_velocity",
-            Error::Epoch { .. } => "epoch",
-            Error::Tolerance { .. } => "tolerance",
-            Error::Span { .. } => "span",
-            Error::Order { .. } => "order",
-            _ => "scene",
-        };
-        Self { key: key.to_owned(), problem: error.to_string(), value: error.value(), bound: error.bound() }
-    }
-
-    pub(super) fn in_file(self, file: &str, document: &Table) -> Error {
-        let value = self.value.or_else(|| at(document, self.key.split('.')).map(fact));
-        in_file(file, &self.key, self.problem, value, self.bound)
-    }
-}
-
-impl From<Error> for Refusal {
-    fn from(error: Error) -> Self {
-        Self::of(&error)
-    }
+/// The error of a value that a scene cannot have.
+pub(super) fn of_refusal(refusal: Refusal, file: &str, document: &Table) -> Error {
+    let value = refusal.value.or_else(|| at(document, refusal.key.split('.')).map(fact));
+    in_file(file, &refusal.key, refusal.problem, value, refusal.bound)
 }
 
 /// What serde refuses: an unknown or missing key, or a value of the wrong type.
@@ -92,7 +34,7 @@ pub(super) fn located(file: &str, document: &Table, error: &serde_path_to_error:
     }
     let key = keys.join(".");
     if quoted("missing field `").is_some() {
-        return Refusal::missing(&key).in_file(file, document);
+        return of_refusal(Refusal::missing(&key), file, document);
     }
     let found = at(document, keys.iter().map(String::as_str));
     // toml tells a date as a string.
