@@ -45,7 +45,8 @@ def command() -> Path:
     path, version = TOOLS / "bin" / "wasm-bindgen", binding_version()
     if not path.exists() or version not in subprocess.run([path, "--version"], capture_output=True, text=True, check=True).stdout:
         # Without optimisation it is there sooner, and it runs for a second.
-        run("cargo", "install", "--debug", "--locked", "--quiet", "wasm-bindgen-cli", "--version", version, "--root", TOOLS)
+        # Not by its lock file, which names versions that a mirror of the registry may not have.
+        run("cargo", "install", "--debug", "--quiet", "wasm-bindgen-cli", "--version", version, "--root", TOOLS)
     return path
 
 

@@ -195,16 +195,19 @@ const css = name => getComputedStyle(document.documentElement).getPropertyValue(
 
 // A canvas in pixels of the screen, empty.
 function prepared(canvas) {
-  const ratio = window.devicePixelRatio || 1, room = canvas.getBoundingClientRect();
-  canvas.width = Math.round(room.width * ratio);
-  canvas.height = Math.round(room.height * ratio);
-  const context = canvas.getContext("2d");
+  const ratio = window.devicePixelRatio || 1, room = canvas.getBoundingClientRect(), context = canvas.getContext("2d");
+  const [width, height] = [room.width, room.height].map(size => Math.round(size * ratio));
+  if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, room.width, room.height);
   context.font = "12px system-ui, sans-serif";
+  context.textAlign = "left";
+  context.lineWidth = 1;
   context.fillStyle = css("--pale");
   return [context, room.width, room.height];
 }
 
+let captioned = "";
 const strip = { left: 38, top: 6, below: 20, right: 8 };
 function drawStrip() {
   const canvas = element("strip"), [context, width, height] = prepared(canvas), right = width - strip.right, bottom = height - strip.below;
@@ -237,7 +240,9 @@ function drawStrip() {
     context.stroke();
   });
   const what = held() ? "the direction to the primary" : "the angular momentum";
-  element("strip-caption").innerHTML = `Angle between ${what} and body axis ${AXES.map((color, k) => `<b style="color: var(${color})">${k + 1}</b>`).join(", ")}`;
+  const caption = `Angle between ${what} and body axis ${AXES.map((color, k) => `<b style="color: var(${color})">${k + 1}</b>`).join(", ")}`;
+  // A caption that is written anew has the page laid out anew.
+  if (caption !== captioned) element("strip-caption").innerHTML = captioned = caption;
 }
 
 // The moment that the view shows, in the strip.

@@ -264,7 +264,7 @@ function load(next) {
   reach = 1.35 * radius / (data.largestRate > 0 ? data.largestRate : 1);
   rotation = (data.stop - data.start) / Math.max(data.rotations, 1);
   polhode = [];
-  for (let k = 0; k <= 500; k++) polhode.push(scaled(reach, state(data.start + (data.polhodeStop - data.start) * k / 500).rates));
+  for (let k = 0; k <= 500; k++) polhode.push(scaled(reach, evaluate(data.start + (data.polhodeStop - data.start) * k / 500).slice(4, 7)));
   for (const table of ["now", "facts"]) for (const row of [...document.getElementById(table).rows]) row.remove();
   for (const name in cells) delete cells[name];
   for (const name of ["t", ...(data.orbit ? ["roll", "pitch", "yaw"] : []), "J", "λ", "μ", "ν", "Λ/M", "N/M", "ω₁", "ω₂", "ω₃"]) cells[name] = rowOf("now", name, "");
@@ -272,7 +272,8 @@ function load(next) {
   slider.min = String(data.start);
   slider.max = String(data.stop);
   time = data.start;
-  draw(time);
+  // While time runs, the next frame draws.
+  if (!playing || before === null) draw(time);
 }
 
 // For scripts: another motion, the state and the Andoyer variables at a time, and a moment that is held.
