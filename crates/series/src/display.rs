@@ -3,12 +3,21 @@
 //! Terms are printed in canonical order as `coefficient*variable^exponent*…`. Exact coefficients are printed as `p/q`, complex ones as `(p/q + r/s*i)`.
 //! [`Polynomial::parse`] with the same names reads the text back. Exact coefficients are read back unchanged. Floats are printed with their shortest decimal,
 //! and are read back with a rounding error at most.
+//!
+//! Forms in floats are printed with their significant digits only. The rounding error of a sum is relative to its largest term: within each degree,
+//! coefficients are printed to the twelfth digit of the largest coefficient, and smaller coefficients are omitted.
 
 use crate::coefficient::Coefficient;
 use crate::harmonics;
-use crate::monomial::SLOTS;
+use crate::monomial::{Monomial, SLOTS};
 use crate::polynomial::Polynomial;
+use crate::real_field::RealField;
+use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
+use std::ops::Range;
+
+/// Number of digits of the largest coefficient of a degree.
+const DIGITS: i32 = 12;
 
 /// A polynomial together with the names of its variables, ready to print.
 pub struct Named<'a, C> {
@@ -129,4 +138,43 @@ impl<C: Coefficient> fmt::Debug for Polynomial<C> {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         write!(formatter, "Polynomial({})", self.display(&[]))
     }
+}
+
+/// Rounds the coefficients of each degree; slots of driven phases do not count.
+pub(crate) fn significant<R: RealField>(
+    polynomial: &Polynomial<R::Complex>,
+    driven: Range<usize>,
+) -> Polynomial<R::Complex> {
+    if R::EPSILON == 0.0 {
+        return polynomial.clone();
+    }
+    let degree = |monomial: Monomial| monomial.without(driven.clone()).total_degree();
+    let mut largest = BTreeMap::<u32, f64>::new();
+    for (monomial, c) in polynomial.terms() {
+        let (size, (re, im)) = (largest.entry(degree(monomial)).or_default(), R::parts(c));
+        *size = size.max(re.to_float().hypot(im.to_float()));
+    }
+    let terms = polynomial.terms().map(|(monomial, c)| {
+        let (re, im) = R::parts(c);
+        let size = largest.get(&degree(monomial)).copied().unwrap_or_default();
+        let rounded = |part: R| R::from_float(rounded(part.to_float(), size)).unwrap_or(part);
+        (monomial, R::complex(rounded(re), rounded(im)))
+    });
+    Polynomial::from_terms(terms)
+}
+
+/// A float rounded to the twelfth digit of `largest`.
+pub(crate) fn rounded(value: f64, largest: f64) -> f64 {
+    let decimals = DIGITS - 1 - largest.log10().floor() as i32;
+    if !value.is_finite() || !(-300..=300).contains(&decimals) {
+        return value;
+    }
+    // Formatting as decimal text rounds correctly, and the nearest float of that text prints as the same decimal.
+    let text = if decimals >= 0 {
+        format!("{value:.*}", decimals as usize)
+    } else {
+        let unit = 10.0_f64.powi(-decimals);
+        ((value / unit).round() * unit).to_string()
+    };
+    text.parse::<f64>().map_or(value, |value| if value == 0.0 { 0.0 } else { value })
 }

@@ -22,3 +22,8 @@ pub(crate) fn document<D: DeserializeOwned>(
     }
     serde_json::from_str(text).map_err(Error::json)
 }
+
+/// Refuses a list of another length.
+pub(crate) fn count(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
+    if found == expected { Ok(()) } else { Err(Error::CountMismatch { what, found, expected }) }
+}

@@ -28,6 +28,7 @@ pub use javascript::JavaScript;
 pub use printer::Printer;
 use printer::RoutinePrinter;
 pub use python::Python;
+use routine::Routine;
 pub use rust::Rust;
 use std::str::FromStr;
 
@@ -44,12 +45,17 @@ pub enum Language {
 }
 
 impl Language {
-    pub(crate) fn printer(self) -> &'static dyn RoutinePrinter {
-        match self {
+    /// A file: its head, with what is said of rights, and functions. `mathematical` if one of them calls sine, cosine or the square root.
+    pub(crate) fn file(self, mut head: Vec<String>, mathematical: bool, routines: &[Routine]) -> String {
+        let printer: &dyn RoutinePrinter = match self {
             Language::C => &C,
             Language::Rust => &Rust,
             Language::Python => &Python,
-        }
+        };
+        head.push("No rights are claimed in this file: do with it what you like.".to_owned());
+        let mathematics = if mathematical { printer.mathematics() } else { "" };
+        let routines: String = routines.iter().map(|routine| printer.routine(routine)).collect();
+        printer.head(&head) + mathematics + &routines
     }
 }
 

@@ -10,7 +10,7 @@
 //! series, the degrees, that no exponents repeat, that S has no kernel part, that each harmonic has its powers of β, and that K and S are real on real motions.
 //! Finally it computes each order and compares every coefficient; the first difference is an error. The computation takes about as long as parsing the text.
 
-use crate::document::document;
+use crate::document::{count, document};
 use crate::energy::{EnergyNormalization, tell};
 use crate::error::Error;
 use crate::error::TermProblem;
@@ -148,10 +148,6 @@ fn same<K: Ord, C: PartialEq + Display>(
     let said = |form: &BTreeMap<K, C>| form.get(at).map_or_else(|| "0".to_owned(), C::to_string);
     let (found, expected) = (said(found), said(expected));
     Err(Error::CoefficientWrong { what, order, exponents: exponents(at), found, expected })
-}
-
-fn count(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
-    if found == expected { Ok(()) } else { Err(Error::CountMismatch { what, found, expected }) }
 }
 
 fn rational(text: &str) -> Result<BigRational, Error> {

@@ -40,147 +40,156 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// # Errors
     /// - degrees of a transformation that outgrow the packed exponents: [`Error::ExponentOverflow`].
     pub fn to_code(&self, language: Language) -> Result<String, Error> {
-        let (printer, routines) = (language.printer(), self.routines()?);
-        let texts: String = routines.iter().map(|routine| printer.routine(routine)).collect();
-        let mathematics = if self.driven().is_empty() { "" } else { printer.mathematics() };
-        Ok(printer.head(&self.head(&routines)) + mathematics + &texts)
+        let title = format!("Birkhoff normal form of order {}: transformation, actions and frequencies.", self.order());
+        let driven: Vec<_> = self.driven().iter().map(|(frequency, start)| (frequency.to_float(), *start)).collect();
+        let slopes = match self.in_actions().map(|actions| actions.map(R::to_float)) {
+            Ok(actions) => {
+                Some((0..self.modes().len()).map(|mode| actions.derivative(mode)).collect::<Result<_, _>>()?)
+            }
+            Err(Error::ResonantTerm { .. }) => None,
+            Err(other) => return Err(other),
+        };
+        let about =
+            About { class: "BirkhoffNormalForm", title, timed: !driven.is_empty(), space: self.space(), driven };
+        about.file(language, self.modes(), self.transformations(&about)?, slopes)
     }
 
-    fn routines(&self) -> Result<Vec<Routine>, Error> {
-        let n = self.space().degrees_of_freedom();
-        let forward: Matrix<f64> =
-            self.linear_change().iter().map(|row| row.iter().map(R::to_float).collect()).collect();
+    /// The programs from the normal variables to the state and back.
+    fn transformations(&self, about: &About<'_>) -> Result<[Program; 2], Error> {
+        let floats = |row: &Vec<R>| row.iter().map(R::to_float).collect();
+        let forward: Matrix<f64> = self.linear_change().iter().map(floats).collect();
         let images = |direct: bool| {
-            let image = |slot| {
-                let image = self.transported(&Polynomial::variable(slot)?, direct, &mut quiet)?;
-                Ok(image.map(R::to_float))
-            };
-            (0..2 * n).map(image).collect::<Result<Vec<_>, Error>>()
+            let image = |slot| Ok(self.transported(&Polynomial::variable(slot)?, direct, &mut quiet)?.map(R::to_float));
+            (0..forward.len()).map(image).collect::<Result<Vec<_>, Error>>()
         };
-        let parameters = Others { parameters: self.space().parameters(), time: false };
-        let all = Others { time: !self.driven().is_empty(), ..parameters };
-        let mut routines = vec![
-            routine(
-                ["from_normal", "The state of normal variables."],
-                ("normal", 2 * n),
-                all,
-                ("state", 2 * n),
-                self.state_program(&images(true)?, &forward),
-            ),
-            routine(
-                ["to_normal", "The normal variables of a state."],
-                ("state", 2 * n),
-                all,
-                ("normal", 2 * n),
-                self.normal_program(&images(false)?, &symplectic_inverse(&forward)),
-            ),
-            actions(self.modes(), self.slots())?,
-        ];
-        match self.in_actions() {
-            Ok(actions) => {
-                let actions = actions.map(R::to_float);
-                let slopes = (0..n).map(|mode| actions.derivative(mode)).collect::<Result<Vec<_>, _>>()?;
-                routines.push(frequencies(&slopes, parameters));
-            }
-            Err(Error::ResonantTerm { .. }) => {}
-            Err(other) => return Err(other),
+        let [mut from_normal, mut to_normal] = [Program::default(), Program::default()];
+        about.polynomials(&mut from_normal, &images(true)?, "result_image_");
+        for (i, row) in forward.iter().enumerate() {
+            from_normal.assign(&format!("{RESULT}{i}"), sum(row, "result_image_"));
         }
-        Ok(routines)
+        let inverse = images(false)?;
+        about.waves(&mut to_normal, &inverse);
+        for (i, row) in symplectic_inverse(&forward).iter().enumerate() {
+            to_normal.assign(&format!("z_{i}"), sum(row, "v_"));
+        }
+        renamed(&mut to_normal, forward.len());
+        polynomials(&mut to_normal, &inverse, about.slots(), RESULT);
+        Ok([from_normal, to_normal])
+    }
+}
+
+/// What a source file is of.
+pub(crate) struct About<'a> {
+    pub(crate) class: &'static str,
+    pub(crate) title: String,
+    /// Whether the transformation depends on the time.
+    pub(crate) timed: bool,
+    pub(crate) space: &'a PhaseSpace,
+    /// The rate of each driven phase and its value at time 0.
+    pub(crate) driven: Vec<(f64, f64)>,
+}
+
+impl About<'_> {
+    /// The file of a form with these modes: the programs from normal variables to states and back, the actions and, if K is a function of them, the slopes ∂K/∂I.
+    pub(crate) fn file<R: RealField>(
+        &self,
+        language: Language,
+        modes: &[Mode<R>],
+        [from_normal, to_normal]: [Program; 2],
+        slopes: Option<Vec<Polynomial<f64>>>,
+    ) -> Result<String, Error> {
+        let parameters = Others { parameters: self.space.parameters(), time: false };
+        let all = Others { time: self.timed, ..parameters };
+        let (normal, state) = (("normal", 2 * modes.len()), ("state", 2 * modes.len()));
+        let mut routines = vec![
+            routine(["from_normal", "The state of normal variables."], normal, all, state, from_normal),
+            routine(["to_normal", "The normal variables of a state."], state, all, normal, to_normal),
+            actions(modes, self.slots())?,
+        ];
+        let mut lines = self.head(modes);
+        match slopes {
+            Some(slopes) => routines.push(frequencies(&slopes, parameters)),
+            None => lines.push("K has resonant terms: there is no function of the frequencies.".to_owned()),
+        }
+        let assignments: usize = routines.iter().map(|routine| routine.program.statements.len()).sum();
+        lines.push(format!("{assignments} assignments. Arguments are not checked."));
+        Ok(language.file(lines, self.timed, &routines))
+    }
+
+    /// The first lines of the file: what it has, of which class, in which variables.
+    fn head<R: RealField>(&self, modes: &[Mode<R>]) -> Vec<String> {
+        let names = self.space.names();
+        let (pairs, parameters) = names.split_at(2 * self.space.degrees_of_freedom());
+        let mut lines = vec![
+            self.title.clone(),
+            String::new(),
+            format!("generated by andoyer {}, {}.to_code", env!("CARGO_PKG_VERSION"), self.class),
+            String::new(),
+            format!("States and normal variables: {} (ASCII names of q1, p1, q2, p2 ...).", pairs.join(", ")),
+        ];
+        if !parameters.is_empty() {
+            lines.push(format!("Parameters: {}.", parameters.join(", ")));
+        }
+        for (name, (frequency, start)) in self.space.driven().into_iter().zip(&self.driven) {
+            lines.push(format!("Driven phase: {name} = {start:?} + {frequency:?} time."));
+        }
+        for (mode, kind) in modes.iter().enumerate() {
+            let (q, p) = (pairs[2 * mode], pairs[2 * mode + 1]);
+            lines.push(match kind {
+                Mode::Elliptic { frequency, ratio } => format!(
+                    "({q}, {p}): centre, frequency {:?}, I = ({q}^2/r + r {p}^2)/2, r = {:?}",
+                    frequency.to_float(),
+                    ratio.to_float()
+                ),
+                Mode::Hyperbolic { rate } => format!("({q}, {p}): saddle, rate {:?}, I = {q} {p}", rate.to_float()),
+                Mode::Complex { rate, frequency, .. } => {
+                    format!(
+                        "({q}, {p}): of a quartet, rate {:?}, frequency {:?}",
+                        rate.to_float(),
+                        frequency.to_float()
+                    )
+                }
+            });
+        }
+        lines
+    }
+
+    /// Assigns the harmonics of the driven phases in `images` at the time: `h_7_2` is that of the exponent 2 in slot 7.
+    fn waves(&self, program: &mut Program, images: &[Polynomial<f64>]) {
+        for (slot, &(frequency, start)) in self.space.driven_slots().zip(&self.driven) {
+            let turned = Expression::from(frequency) * name("time");
+            let phase = if start == 0.0 { turned } else { Expression::from(start) + turned };
+            program.assign(&format!("m_{slot}"), phase);
+            let exponents = images.iter().flat_map(Polynomial::terms).map(|(monomial, _)| monomial.exponent(slot));
+            for exponent in exponents.filter(|&exponent| exponent > 0).collect::<BTreeSet<_>>() {
+                let (j, phase) = (harmonics::signed(exponent), name(&format!("m_{slot}")));
+                let angle = if j.abs() == 1 { phase } else { Expression::from(j.abs() as f64) * phase };
+                let value = call(if j < 0 { Function::Sine } else { Function::Cosine }, angle);
+                program.assign(&format!("h_{slot}_{exponent}"), value);
+            }
+        }
+    }
+
+    /// Assigns the harmonics in `images`, and their values to the names `target` with 0, 1, ….
+    pub(crate) fn polynomials(&self, program: &mut Program, images: &[Polynomial<f64>], target: &str) {
+        self.waves(program, images);
+        polynomials(program, images, self.slots(), target);
     }
 
     fn slots(&self) -> Slots {
-        Slots { parameters: 2 * self.modes().len(), driven: self.space().driven_slots().start }
-    }
-
-    fn harmonics(&self, images: &[Polynomial<f64>]) -> Program {
-        let driven: Vec<_> = self.driven().iter().map(|(frequency, start)| (frequency.to_float(), *start)).collect();
-        waves(self.space(), &driven, images)
-    }
-
-    fn state_program(&self, images: &[Polynomial<f64>], forward: &Matrix<f64>) -> Program {
-        let mut program = self.harmonics(images);
-        program.statements.extend(polynomials(images, self.slots(), "result_image_").statements);
-        for (i, row) in forward.iter().enumerate() {
-            program.assign(&format!("{RESULT}{i}"), sum(row, "result_image_"));
-        }
-        program
-    }
-
-    fn normal_program(&self, images: &[Polynomial<f64>], backward: &Matrix<f64>) -> Program {
-        let mut program = self.harmonics(images);
-        for (i, row) in backward.iter().enumerate() {
-            program.assign(&format!("z_{i}"), sum(row, "v_"));
-        }
-        for (i, _) in backward.iter().enumerate() {
-            program.assign(&format!("v_{i}"), name(&format!("z_{i}")));
-        }
-        program.statements.extend(polynomials(images, self.slots(), RESULT).statements);
-        program
-    }
-
-    fn head(&self, routines: &[Routine]) -> Vec<String> {
-        let driven: Vec<_> = self.driven().iter().map(|(frequency, start)| (frequency.to_float(), *start)).collect();
-        let title = format!("Birkhoff normal form of order {}: transformation, actions and frequencies.", self.order());
-        let mut lines = head(&title, "BirkhoffNormalForm", self.space(), &driven, self.modes());
-        if routines.len() < 4 {
-            lines.push("K has resonant terms: there is no function of the frequencies.".to_owned());
-        }
-        lines.extend(foot(routines));
-        lines
+        Slots { parameters: 2 * self.space.degrees_of_freedom(), driven: self.space.driven_slots().start }
     }
 }
 
-/// The first lines of a file: what it has, of which class, in which variables.
-pub(crate) fn head<R: RealField>(
-    title: &str,
-    class: &str,
-    space: &PhaseSpace,
-    driven: &[(f64, f64)],
-    modes: &[Mode<R>],
-) -> Vec<String> {
-    let names = space.names();
-    let (pairs, parameters) = names.split_at(2 * space.degrees_of_freedom());
-    let mut lines = vec![
-        title.to_owned(),
-        String::new(),
-        format!("generated by andoyer {}, {class}.to_code", env!("CARGO_PKG_VERSION")),
-        String::new(),
-        format!("States and normal variables: {} (ASCII names of q1, p1, q2, p2 ...).", pairs.join(", ")),
-    ];
-    if !parameters.is_empty() {
-        lines.push(format!("Parameters: {}.", parameters.join(", ")));
+/// Gives the values `z_0`, `z_1`, … to the variables.
+pub(crate) fn renamed(program: &mut Program, length: usize) {
+    for i in 0..length {
+        program.assign(&format!("v_{i}"), name(&format!("z_{i}")));
     }
-    for (name, (frequency, start)) in space.driven().into_iter().zip(driven) {
-        lines.push(format!("Driven phase: {name} = {start:?} + {frequency:?} time."));
-    }
-    for (mode, kind) in modes.iter().enumerate() {
-        let (q, p) = (pairs[2 * mode], pairs[2 * mode + 1]);
-        lines.push(match kind {
-            Mode::Elliptic { frequency, ratio } => format!(
-                "({q}, {p}): centre, frequency {:?}, I = ({q}^2/r + r {p}^2)/2, r = {:?}",
-                frequency.to_float(),
-                ratio.to_float()
-            ),
-            Mode::Hyperbolic { rate } => format!("({q}, {p}): saddle, rate {:?}, I = {q} {p}", rate.to_float()),
-            Mode::Complex { rate, frequency, .. } => {
-                format!("({q}, {p}): of a quartet, rate {:?}, frequency {:?}", rate.to_float(), frequency.to_float())
-            }
-        });
-    }
-    lines
-}
-
-/// The last lines of the head.
-pub(crate) fn foot(routines: &[Routine]) -> [String; 2] {
-    let assignments: usize = routines.iter().map(|routine| routine.program.statements.len()).sum();
-    [
-        format!("{assignments} assignments. Arguments are not checked."),
-        "No rights are claimed in this file: do with it what you like.".to_owned(),
-    ]
 }
 
 /// The actions of normal variables.
-pub(crate) fn actions<R: RealField>(modes: &[Mode<R>], slots: Slots) -> Result<Routine, Error> {
+fn actions<R: RealField>(modes: &[Mode<R>], slots: Slots) -> Result<Routine, Error> {
     let square = |slot: usize, other: usize| {
         let first = Monomial::ONE.with(slot, 1)?;
         first.with(other, first.exponent(other) + 1)
@@ -205,33 +214,16 @@ pub(crate) fn actions<R: RealField>(modes: &[Mode<R>], slots: Slots) -> Result<R
     };
     let list = modes.iter().enumerate().map(action).collect::<Result<Vec<_>, Error>>()?;
     let (n, none) = (modes.len(), Others { parameters: 0, time: false });
-    let meaning = ["actions", "The actions of normal variables."];
-    Ok(routine(meaning, ("normal", 2 * n), none, ("actions", n), polynomials(&list, slots, RESULT)))
+    let (meaning, mut program) = (["actions", "The actions of normal variables."], Program::default());
+    polynomials(&mut program, &list, slots, RESULT);
+    Ok(routine(meaning, ("normal", 2 * n), none, ("actions", n), program))
 }
 
 /// The rates ∂K/∂I, given in the actions.
-pub(crate) fn frequencies(slopes: &[Polynomial<f64>], others: Others) -> Routine {
-    let n = slopes.len();
-    let program = polynomials(slopes, Slots { parameters: n, driven: SLOTS }, RESULT);
+fn frequencies(slopes: &[Polynomial<f64>], others: Others) -> Routine {
+    let (n, mut program) = (slopes.len(), Program::default());
+    polynomials(&mut program, slopes, Slots { parameters: n, driven: SLOTS }, RESULT);
     routine(["frequencies", "The rates dK/dI at actions."], ("actions", n), others, ("rates", n), program)
-}
-
-/// The harmonics of the driven phases in `images` at the time: `h_7_2` is that of the exponent 2 in slot 7.
-pub(crate) fn waves(space: &PhaseSpace, driven: &[(f64, f64)], images: &[Polynomial<f64>]) -> Program {
-    let mut program = Program::default();
-    for (slot, &(frequency, start)) in space.driven_slots().zip(driven) {
-        let turned = Expression::from(frequency) * name("time");
-        let phase = if start == 0.0 { turned } else { Expression::from(start) + turned };
-        program.assign(&format!("m_{slot}"), phase);
-        let exponents = images.iter().flat_map(Polynomial::terms).map(|(monomial, _)| monomial.exponent(slot));
-        for exponent in exponents.filter(|&exponent| exponent > 0).collect::<BTreeSet<_>>() {
-            let (j, phase) = (harmonics::signed(exponent), name(&format!("m_{slot}")));
-            let angle = if j.abs() == 1 { phase } else { Expression::from(j.abs() as f64) * phase };
-            let value = call(if j < 0 { Function::Sine } else { Function::Cosine }, angle);
-            program.assign(&format!("h_{slot}_{exponent}"), value);
-        }
-    }
-    program
 }
 
 /// Prefix of the results of a program.
@@ -239,20 +231,20 @@ pub(crate) const RESULT: &str = "result_";
 
 /// The arguments of a function after its array.
 #[derive(Clone, Copy)]
-pub(crate) struct Others {
-    pub(crate) parameters: usize,
-    pub(crate) time: bool,
+struct Others {
+    parameters: usize,
+    time: bool,
 }
 
 /// The first slots of the parameters and of the driven phases in a polynomial.
 #[derive(Clone, Copy)]
-pub(crate) struct Slots {
-    pub(crate) parameters: usize,
-    pub(crate) driven: usize,
+struct Slots {
+    parameters: usize,
+    driven: usize,
 }
 
 /// A function of an array and of other arguments. Its program finds the entries in `v_0`, `v_1`, …, the parameters in `c_0`, `c_1`, … and the time in `time`.
-pub(crate) fn routine(
+fn routine(
     [name, meaning]: [&'static str; 2],
     argument: (&'static str, usize),
     others: Others,
@@ -287,14 +279,12 @@ fn sum(row: &[f64], stem: &str) -> Expression {
 }
 
 /// Assigns the names `target` with 0, 1, … from polynomials in `v_0`, `v_1`, …, the parameters and the harmonics of the driven phases.
-pub(crate) fn polynomials(list: &[Polynomial<f64>], slots: Slots, target: &str) -> Program {
-    let mut program = Program::default();
+fn polynomials(program: &mut Program, list: &[Polynomial<f64>], slots: Slots, target: &str) {
     for (number, polynomial) in list.iter().enumerate() {
         let terms: Vec<(Monomial, f64)> = polynomial.terms().map(|(monomial, &c)| (monomial, c)).collect();
-        let value = horner(&mut program, &terms, 0, slots);
+        let value = horner(program, &terms, 0, slots);
         program.assign(&format!("{target}{number}"), value);
     }
-    program
 }
 
 /// The value of a polynomial in the variables from `slot` on. If it takes more than one assignment, its name is `a_slot`.

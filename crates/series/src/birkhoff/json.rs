@@ -27,7 +27,7 @@ use super::resonances::Spectrum;
 use super::verify::verified;
 use super::{BirkhoffNormalForm, PhaseSpace, Resonances, check_driven, prepared};
 use crate::coefficient::Coefficient;
-use crate::document::document;
+use crate::document::{count, document};
 use crate::error::Error;
 use crate::error::TermProblem;
 use crate::monomial::Monomial;
@@ -240,10 +240,6 @@ pub(crate) fn monomial(space: &PhaseSpace, exponents: &[i64]) -> Result<Option<M
 fn inconsistent(what: &'static str, order: usize, exponents: &[i64], problem: TermProblem) -> Error {
     let exponents = exponents.iter().map(|&exponent| exponent.try_into().unwrap_or(0)).collect();
     Error::TermInconsistent { what, order, exponents, problem }
-}
-
-fn count(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
-    if found == expected { Ok(()) } else { Err(Error::CountMismatch { what, found, expected }) }
 }
 
 fn value<R: RealField>(c: &R) -> Value {

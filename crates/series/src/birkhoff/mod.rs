@@ -33,7 +33,7 @@ mod scaled;
 pub(crate) mod schur;
 mod series;
 mod spectrum;
-pub(crate) mod text;
+mod text;
 mod transformation;
 mod univariate;
 pub(crate) mod variables;

@@ -10,12 +10,12 @@ use super::work::MOST_WORK;
 use crate::birkhoff::actions::action_texts;
 use crate::birkhoff::phases::cosines;
 use crate::birkhoff::resonances::check_smallest_divisor;
-use crate::birkhoff::text::{Line, latex, significant, symbol};
 use crate::birkhoff::variables::to_real;
 use crate::birkhoff::{PhaseSpace, check_driven};
+use crate::display::significant;
 use crate::error::Error;
 use crate::harmonics;
-use crate::latex::Part;
+use crate::latex::{self, Part};
 use crate::monomial::MAX_EXPONENT;
 use crate::polynomial::Polynomial;
 use crate::triangle::{Progress, quiet};
@@ -211,46 +211,22 @@ impl DrivenNormalForm {
     /// # Errors
     /// - exponents that outgrow a monomial: [`Error::ExponentOverflow`].
     pub fn to_latex(&self, what: Part) -> Result<String, Error> {
-        let names = self.space.owned_names();
-        let complex = |f: &Polynomial<f64>| f.map(|&c| Complex::from(c));
-        let line = |name: String, series: &Polynomial<f64>, primed| Line::<f64> {
-            name,
-            series: complex(series),
-            names: names.clone(),
-            primed,
-        };
-        let mut lines = Vec::new();
-        match what {
-            Part::Hamiltonian => {
-                let names = action_texts(self.form.modes(), &self.space);
-                lines.push(Line { names, ..line("K".to_owned(), &self.form.in_actions()?, false) });
-            }
-            Part::Generator => {
-                for m in 1..=self.form.order() {
-                    let generator = self.form.transform.generator(m).unwrap_or_default();
-                    lines.push(line(format!("S_{{{m}}}"), &self.real_in_waves(&generator)?, true));
-                }
-            }
-            Part::Direct => {
-                for (slot, name) in names.iter().enumerate() {
-                    lines.push(line(symbol(name, ""), &self.direct_series(slot)?, true));
-                }
-            }
-            Part::Inverse => {
-                for (slot, name) in names.iter().enumerate() {
-                    lines.push(line(symbol(name, "'"), &self.inverse_series(slot)?, false));
-                }
-            }
-        }
-        Ok(latex(&self.space, &lines))
+        let generator = |m| self.real_in_waves(&self.form.transform.generator(m).unwrap_or_default());
+        let image = |slot, direct| if direct { self.direct_series(slot) } else { self.inverse_series(slot) };
+        latex::part::<f64>((what, &self.space, self.form.order()), || self.in_actions(), generator, image)
+    }
+
+    /// K in the actions, and their names.
+    fn in_actions(&self) -> Result<(Polynomial<Complex<f64>>, Vec<String>), Error> {
+        let actions = self.form.in_actions()?.map(|&c| Complex::from(c));
+        Ok((actions, action_texts(self.form.modes(), &self.space)))
     }
 }
 
 /// Prints K in the actions, as of a form without driven phases.
 impl std::fmt::Display for DrivenNormalForm {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let actions = self.form.in_actions().map_err(|_| std::fmt::Error)?;
-        let actions = significant::<f64>(&actions.map(|&c| Complex::from(c)), &self.space);
-        formatter.write_str(&self.space.text(&actions, &action_texts(self.form.modes(), &self.space)))
+        let (actions, names) = self.in_actions().map_err(|_| std::fmt::Error)?;
+        formatter.write_str(&self.space.text(&significant::<f64>(&actions, self.space.driven_slots()), &names))
     }
 }

@@ -70,8 +70,7 @@ impl NormalForm {
             results: Results::Record(computation::RESULTS.into_iter().zip(MEANINGS).collect()),
             program,
         };
-        let printer = language.printer();
-        Ok(printer.head(&head) + printer.mathematics() + &printer.routine(&routine))
+        Ok(language.file(head, true, &[routine]))
     }
 }
 
@@ -122,6 +121,5 @@ fn head(order: usize, beta: Option<f64>, cost: Cost) -> Result<Vec<String>, Erro
         "Cost: {} additions, {} multiplications, {} divisions, {} square roots, {} sine and cosine.",
         cost.additions, cost.multiplications, cost.divisions, cost.square_roots, cost.trigonometric
     ));
-    lines.push("No rights are claimed in this file: do with it what you like.".to_owned());
     Ok(lines)
 }
