@@ -50,8 +50,15 @@ class Candidates(NamedTuple):
 
     steps: Array
     chi_squares: Array
-    weights: Array
-    """With the largest 1, or all 0 where no candidate is a body."""
+    logarithms: Array
+    """Of exp(−χ²/2) over the density of a candidate, less that of their number: exp of them has the integral of exp(−χ²/2) over steps as its sum. −∞ for what is no body."""
+
+    @property
+    def weights(self) -> Array:
+        """With the largest 1, or all 0 where no candidate is a body."""
+        largest = self.logarithms.max(initial=-np.inf)
+        weights: Array = np.exp(self.logarithms - largest) if np.isfinite(largest) else np.zeros(len(self.logarithms))
+        return weights
 
     @property
     def effective_size(self) -> float:
@@ -73,23 +80,21 @@ def candidates(model: Model, lost: Array, count: int, generator: np.random.Gener
     residuals, jacobian = (array[0] for array in model.derivatives(np.zeros((1, lost.shape[1]))))
     frame, triangle = np.linalg.qr(jacobian @ basis)
     normal = generator.standard_normal((SPARE * count, basis.shape[1]))
-    least = float(residuals @ residuals)
     steps = np.linalg.solve(triangle, normal.T).T @ basis.T
     chi_squares = model.chi_squares(steps)
-    found = _weighed(steps, chi_squares, -0.5 * (chi_squares - least - np.sum(normal**2, axis=1)))
+    volume = 0.5 * basis.shape[1] * np.log(2 * np.pi)
+    logarithms = volume - np.linalg.slogdet(triangle)[1] - 0.5 * (chi_squares - np.sum(normal**2, axis=1))
+    found = _weighed(steps, chi_squares, logarithms)
     if found.effective_size >= count:
         return found
     search = _Search(model, basis, frame, triangle, residuals)
     parts = [search.solved(normal[start : start + CANDIDATES_AT_ONCE]) for start in range(0, count, CANDIDATES_AT_ONCE)]
     steps, chi_squares, logarithms = (np.concatenate(arrays) for arrays in zip(*parts))
-    return _weighed(steps, chi_squares, logarithms)
+    return _weighed(steps, chi_squares, logarithms + volume)
 
 
 def _weighed(steps: Array, chi_squares: Array, logarithms: Array) -> Candidates:
-    logarithms = np.where(np.isfinite(logarithms), logarithms, -np.inf)
-    largest = logarithms.max(initial=-np.inf)
-    weights = np.exp(logarithms - largest) if np.isfinite(largest) else np.zeros(len(logarithms))
-    return Candidates(steps, chi_squares, weights)
+    return Candidates(steps, chi_squares, np.where(np.isfinite(logarithms), logarithms, -np.inf) - np.log(max(len(steps), 1)))
 
 
 class _Search(NamedTuple):
@@ -124,7 +129,7 @@ class _Search(NamedTuple):
             chi_squares[kept] = np.sum(residuals[nearer] ** 2, axis=1)
             part[kept] = np.minimum(1.0, 2 * part[kept])
             part[active[~nearer]] /= 4
-        logarithms = -0.5 * (chi_squares - least - np.sum(normal**2, axis=1)) - np.linalg.slogdet(slopes)[1]
+        logarithms = -0.5 * (chi_squares - np.sum(normal**2, axis=1)) - np.linalg.slogdet(slopes)[1]
         return places @ self.basis.T, chi_squares, np.where(gaps <= GAP, logarithms, -np.inf)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
@@ -21,22 +22,32 @@ def are_bodies(steps: Steps, rows: Array) -> NDArray[np.bool_]:
 
 
 def members(steps: Steps, rows: Array, *, threads: int | None = None, errors: Literal["raise", "nan"] = "raise") -> Ensemble:
-    """The states that rows of steps lead to, shape (m, k), about principal axes, with the options of the scene of the steps.
+    """The states that rows of steps lead to, shape (m, k): see `members_of`."""
+    return members_of([(steps, rows)], threads=threads, errors=errors)
+
+
+def members_of(parts: Sequence[tuple[Steps, Array]], *, threads: int | None = None, errors: Literal["raise", "nan"] = "raise") -> Ensemble:
+    """The states that rows of steps from one scene or several lead to, shapes (m, k), about principal axes, with the options of the first scene.
 
     Raises
     ------
     InputError
         A scene with several disturbing bodies or a `TabulatedOrbit`.
     """
-    scene = steps.origin
+    scene = parts[0][0].origin
     orbit = scene.orbit
     if not (orbit is None or isinstance(orbit, Orbit)):
         raise refusal("scene", type(orbit).__name__, "Orbit", "has several disturbing bodies or a table of positions: an Ensemble takes one Orbit at most")
-    moments, attitudes, rates = steps.states(rows)
     _, options = scene.__getnewargs_ex__()
     shared = {"epochs": options.get("epoch", 0.0), "orbits": orbit, "tolerance": scene.tolerance, "span": scene.span}
-    rates = np.einsum("mi,mij->mj", rates, steps.principal_axes(rows))
-    return Ensemble(moments, product(attitudes, _turns(steps, rows)), rates, threads=threads, errors=errors, **shared)
+    moments, attitudes, rates = (np.concatenate(arrays) for arrays in zip(*(_about_principal_axes(*part) for part in parts)))
+    return Ensemble(moments, attitudes, rates, threads=threads, errors=errors, **shared)
+
+
+def _about_principal_axes(steps: Steps, rows: Array) -> tuple[Array, Array, Array]:
+    """Principal moments, attitudes and angular velocities."""
+    moments, attitudes, rates = steps.states(rows)
+    return moments, product(attitudes, _turns(steps, rows)), np.einsum("mi,mij->mj", rates, steps.principal_axes(rows))
 
 
 def about_body_axes(steps: Steps, rows: Array, attitudes: Array) -> Array:

@@ -7,16 +7,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from andoyer._core import Ensemble, Scene
 from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.fit._degeneracy import sentence, undetermined
-from andoyer.fit._draws import Model, candidates
+from andoyer.fit._draws import Candidates, Model, candidates
 from andoyer.fit._given import generator_of, whole_number
 from andoyer.fit._magnitudes import ZeroPoints
-from andoyer.fit._members import members
+from andoyer.fit._members import members_of
+from andoyer.fit._message import NEAR as NEAR_BEST
 from andoyer.fit._observed import Light
 from andoyer.fit._optimum import Alias, Optimum, aliases, free_motion
 from andoyer.fit._steps import Steps
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+FEWEST = 50
+"""Candidates of a minimum at least, where draws are about several."""
 LITTLE = 0.5
 """Effective size, in parts of the number of draws, below which there is a warning."""
 
@@ -41,6 +44,8 @@ class Draws(NamedTuple):
     """χ² of each state less that of the best, shape (n,)."""
     effective_size: float
     """The number of independent states that the draws are worth, at most n: (Σw)²/Σw² of the weights."""
+    optima: NDArray[np.intp]
+    """The place in `Fit.optima` of the minimum about which each state was drawn, shape (n,)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,11 +177,11 @@ class Fit:
         """
         return self.draws(n, rng, threads=threads).states
 
-    def draws(self, n: int, rng: Any = None, *, threads: int | None = None) -> Draws:
-        """Draws states about the best one from the density exp(−χ²/2), with their Δχ² and effective size.
+    def draws(self, n: int, rng: Any = None, *, optima: bool = False, threads: int | None = None) -> Draws:
+        """Draws states about the best one, or about all minima, from the density exp(−χ²/2), with their Δχ² and effective size.
 
-        The density is per rotation vector of the attitude, angular velocity, and logarithms of moments or axis ratios. Components that the data do not determine are equal in all states. Other
-        minima of χ² are not drawn from: see `aliases` and `optima`. 2n draws from the covariance get the weight exp(−χ²/2) over their own density. If their effective size is below n, nonlinear
+        The density is per rotation vector of the attitude, angular velocity, and logarithms of moments or axis ratios. Components that the data do not determine are equal in all states of a
+        minimum. 2n draws from the covariance get the weight exp(−χ²/2) over their own density. If their effective size is below n, nonlinear
         equations are solved for each draw (Bardsley and others, SIAM J. Sci. Comput. 36, A1895, 2014): some milliseconds a state. A state of large weight can be drawn several times.
 
         Parameters
@@ -185,18 +190,21 @@ class Fit:
             Number of states.
         rng : int or numpy.random.Generator, optional
             A seed or a generator of random numbers.
+        optima : bool, optional
+            If True, the states are about all of `optima` within Δχ² = 25 of the best, about each in proportion to the integral of exp(−χ²/2) there: a wide minimum gets more states than a narrow one of the same
+            χ². A direction that the data do not determine at one of them counts as 1 rad or 100 %. Two minima in one valley both count it.
         threads : int, optional
             Number of threads, as for `Ensemble`.
 
         Returns
         -------
         Draws
-            The states, Δχ² of each, and the effective size. The mean Δχ² is near the number of parameters that the data determine.
+            The states, Δχ² of each, the effective size, and the minimum of each. About one minimum the mean Δχ² is near the number of parameters that the data determine.
 
         Raises
         ------
         InputError
-            An `n` below 0. No draw has a motion: the moments are too uncertain, for example. A scene with several disturbing bodies or a `TabulatedOrbit`.
+            An `n` below 0. An `optima` that is neither True nor False. No draw has a motion: the moments are too uncertain, for example. A scene with several disturbing bodies or a `TabulatedOrbit`.
 
         Warns
         -----
@@ -215,10 +223,16 @@ class Fit:
         True
         """
         count, generator = whole_number("n", n, 0), generator_of(rng)
+        if not isinstance(optima, (bool, np.bool_)):
+            raise refusal("optima", repr(optima), "True or False", f"= {optima!r}: it must be True or False")
+        fits = [self, *(optimum.fit() for optimum in self.optima[1:] if optimum.delta_chi_square <= NEAR_BEST)] if optima else [self]
         if not count:
-            return Draws(members(self._steps, np.zeros((0, len(self.parameters))), threads=threads), np.zeros(0), 0.0)
-        found = candidates(self._model, self.undetermined, count, generator)
-        size = min(found.effective_size, float(count))
+            return Draws(members_of([(self._steps, np.zeros((0, len(self.parameters))))], threads=threads), np.zeros(0), 0.0, np.zeros(0, dtype=np.intp))
+        found = [fit._candidates(self, count, generator) for fit in fits]
+        logarithms = np.concatenate([part.logarithms for part in found])
+        minima = np.repeat(np.arange(len(found)), [len(part.steps) for part in found])
+        together = Candidates(np.concatenate([part.steps for part in found]), np.concatenate([part.chi_squares for part in found]), logarithms)
+        size = min(together.effective_size, float(count))
         if not size > 0:
             raise refusal("n", count, 0, f"= {count}: no draw has a motion whose χ² could be found; fit fewer parameters, or hold the moments")
         if size < LITTLE * count:
@@ -226,8 +240,17 @@ class Fit:
                 f"the {count} draws have the effective size {size:.0f}: the data determine the state loosely, and few draws have most of the weight",
                 stacklevel=2,
             )
-        places = found.drawn(count, generator)
-        return Draws(members(self._steps, found.steps[places], threads=threads), found.chi_squares[places] - self.chi_square, size)
+        places = together.drawn(count, generator)
+        of = minima[places]
+        states = members_of([(fit._steps, together.steps[places[of == number]]) for number, fit in enumerate(fits)], threads=threads)
+        return Draws(states, together.chi_squares[places] - self.chi_square, size, of)
+
+    def _candidates(self, best: Fit, count: int, generator: np.random.Generator) -> Candidates:
+        """Candidates about this minimum for a part of the draws of the best one, weighted per angular velocity: steps of it are in parts of that of the state."""
+        part = max(min(count, FEWEST), int(np.ceil(count * np.exp(-(self.chi_square - best.chi_square) / 2))))
+        found = candidates(self._model, self.undetermined, part, generator)
+        rates = sum(label.startswith("ω") for label in self.parameters)
+        return found._replace(logarithms=found.logarithms + rates * np.log(self._steps.rate))
 
     def __repr__(self) -> str:
         motion = free_motion(self.scene)
