@@ -1,11 +1,11 @@
 """Measure averaged motions over years beside integrations of the full equations over a shorter span.
 
-    python benches/evolution_times.py             docs/data/evolution-times.csv
+    make evolution-times                          docs/data/evolution-times.csv
     python benches/evolution_times.py --print     the table alone
 
 Ten years of the satellite of examples/gallery/plot_21_satellite_years.py, and a million years of an asteroid of 1 km with 360 facets. A time is the median of five runs by the clock of the processor, without the torque's polynomials, which a row has beside it.
 `integration_ms` is that of `rotations` rotations by `Scene.solve` with a tolerance of 1e-6, from the same state. `ratio` is that time, by rotation, over the time of the averages, by rotation.
-One evaluation of the averaged equations has no time here: `Scene.drift` makes the equations anew at each call.
+`evaluation_us` is that of one evaluation of the averaged equations: `Evolution.at` makes one step of 17 evaluations for each time. `plan_ms` is that of `Evolution.plan`, which integrates the full equations over windows of thirty rotations.
 """
 
 import argparse
@@ -22,7 +22,9 @@ import andoyer
 
 FILE = DATA / "evolution-times.csv"
 RUNS = 5
+TIMES, EVALUATIONS = 4000, 17
 TOLERANCE = 1e-6
+COLUMNS = ("scene", "years", "all_rotations", "degree", "torque_ms", "averages_ms", "evaluation_us", "plan_ms", "rotations", "integration_ms", "ratio")
 YEAR = 365.25 * 86400.0
 
 
@@ -81,6 +83,9 @@ def measured(name, made, years, rotations):
     scene = andoyer.Scene(*state, torques=[torque])
     evolution, averaged = timed(lambda: scene.evolve((0, years * YEAR)))
     first, last = evolution.reached
+    times = np.random.default_rng(1).uniform(first, last, TIMES)
+    _, states = timed(lambda: evolution.at(times))
+    _, plan = timed(lambda: evolution.plan)
     period = float(evolution.at(first).spin_period)
     full = andoyer.Scene(*state, torques=[torque], span=(0, rotations * period), tolerance=TOLERANCE)
     _, whole = timed(full.solve)
@@ -92,13 +97,13 @@ def measured(name, made, years, rotations):
         torque.degree,
         f"{cost:.3g}",
         f"{averaged:.3g}",
+        f"{1e3 * states / TIMES / EVALUATIONS:.2g}",
+        f"{plan:.3g}",
         rotations,
         f"{whole:.3g}",
         f"{ratio:.1e}",
     )
-    return dict(
-        zip(("scene", "years", "all_rotations", "degree", "torque_ms", "averages_ms", "rotations", "integration_ms", "ratio"), (name, *figures), strict=True)
-    )
+    return dict(zip(COLUMNS, (name, *figures), strict=True))
 
 
 def main():
