@@ -1,5 +1,7 @@
 //! The period of a pendulum of large amplitude, in doubles and in double-doubles: T = 4 √(l/g) K, with K = π/(2 agm(1, cos(θ/2))) = R_F(0, k′², 1).
 
+#![expect(clippy::print_stdout, reason = "an example prints what it computes")]
+
 use andoyer_double::{DoubleDouble, arithmetic_geometric_mean, carlson_rf};
 
 /// π to 32 digits.

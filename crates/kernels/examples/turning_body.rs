@@ -1,5 +1,7 @@
 //! A binary PCK of a body that turns once in 8 hours, written, and read back as attitudes.
 
+#![expect(clippy::print_stdout, reason = "an example prints what it computes")]
+
 use andoyer_kernels::{Daf, Head, Orientations};
 use std::io::Cursor;
 

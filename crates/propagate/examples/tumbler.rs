@@ -1,5 +1,7 @@
 //! A tumbling body: its plan, its periods, its attitude after a million turns, and how sharply the initial state must be known.
 
+#![expect(clippy::print_stdout, reason = "an example prints what it computes")]
+
 use andoyer_propagate::nalgebra::Vector3;
 use andoyer_propagate::options::Convention;
 use andoyer_propagate::{Body, Error, Scene, State};

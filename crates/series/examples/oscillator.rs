@@ -1,5 +1,7 @@
 //! The frequency of a quartic oscillator by its normal form, exact, and in numbers: H = (p² + q²)/2 + q⁴/4.
 
+#![expect(clippy::print_stdout, reason = "an example prints what it computes")]
+
 use andoyer_series::num_rational::BigRational;
 use andoyer_series::{BirkhoffMap, Error, PhaseSpace, normalize};
 
