@@ -26,7 +26,7 @@ const SIGN: usize = 13;
 /// A part of the normal form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Part {
-    /// K; of the rigid body with its triaxiality polynomials P_n.
+    /// K, and the triaxiality polynomials P_n of the rigid body.
     Hamiltonian,
     /// The generating functions S_m.
     Generator,
