@@ -1,6 +1,6 @@
 """Quaternions [x, y, z, w] in arrays of shape (n, 4): Hamilton product, scalar last, as everywhere in this package."""
 
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +14,11 @@ def conjugate(q: Array) -> Array:
     return inverse
 
 
-def product(p: Array, q: Array) -> Array:
-    """The rotation q followed by p."""
+def product(p: Array, q: Array, arrays: Any = np) -> Array:
+    """The rotation q followed by p, with the functions of NumPy or of another module of arrays."""
     u, a, v, b = p[..., :3], p[..., 3:], q[..., :3], q[..., 3:]
-    return np.concatenate([a * v + b * u + np.cross(u, v), a * b - np.sum(u * v, axis=-1, keepdims=True)], axis=-1)
+    turn: Array = arrays.concatenate([a * v + b * u + arrays.cross(u, v), a * b - arrays.sum(u * v, axis=-1, keepdims=True)], axis=-1)
+    return turn
 
 
 def rotate(q: Array, vectors: Array) -> Array:

@@ -13,7 +13,7 @@ import numpy as np
 
 from andoyer._core import Body, Ensemble, InputError, Motion, RepresentationError, Scene, TheoryError
 from andoyer._extra import extra
-from andoyer._quaternions import Array
+from andoyer._quaternions import Array, conjugate, product
 from andoyer.interop._attitudes import quaternions
 
 jax: Any = extra("jax", "andoyer.jax")
@@ -199,7 +199,7 @@ def _tangent(primals: Any, tangents: Any) -> Any:
     if any(tangent is not None for tangent in of_body):
         of_moments, of_attitude, of_rates = of_body
         by_attitude, by_rates = _partials(*primals)
-        first = None if of_attitude is None else 2 * _product(_conjugate(attitude), of_attitude)[..., :3] / jnp.sum(attitude**2, axis=-1, keepdims=True)
+        first = None if of_attitude is None else 2 * product(conjugate(attitude), of_attitude, jnp)[..., :3] / jnp.sum(attitude**2, axis=-1, keepdims=True)
         for tangent, start in ((first, 0), (of_rates, 3), (of_moments, 6)):
             if tangent is not None:
                 turn = turn + jnp.einsum("...nip,...p->...ni", by_attitude[..., start : start + 3], tangent)
@@ -208,18 +208,8 @@ def _tangent(primals: Any, tangents: Any) -> Any:
         inertia = moments[..., None, :]
         turn = turn + rates * of_times[..., None]
         change = change + jnp.cross(inertia * rates, rates) / inertia * of_times[..., None]
-    of_quaternion = _product(attitudes, jnp.concatenate([0.5 * turn, jnp.zeros_like(turn[..., :1])], axis=-1))
+    of_quaternion = product(attitudes, jnp.concatenate([0.5 * turn, jnp.zeros_like(turn[..., :1])], axis=-1), jnp)
     return (attitudes, rates), (of_quaternion, change)
-
-
-def _conjugate(q: Any) -> Any:
-    return q * np.array([-1.0, -1.0, -1.0, 1.0])
-
-
-def _product(p: Any, q: Any) -> Any:
-    """The Hamilton product, as `_quaternions.product` of NumPy."""
-    u, a, v, b = p[..., :3], p[..., 3:], q[..., :3], q[..., 3:]
-    return jnp.concatenate([a * v + b * u + jnp.cross(u, v), a * b - jnp.sum(u * v, axis=-1, keepdims=True)], axis=-1)
 
 
 _state: Any = jax.custom_jvp(_primal)
