@@ -192,9 +192,10 @@ nature: $(VENV)/kernels  ## a rigid Earth and Moon at DE440 positions beside REN
 	$(BIN)/python tests/nature/moon_rivals.py
 	$(BIN)/python tests/nature/earth.py
 
-bounds: $(VENV)/installed  ## errors of 3000 random scenes and of 1000 tensors against their bounds, and of 200 averaged motions against their estimate; five minutes
+bounds: $(VENV)/installed  ## errors of 3000 random scenes, 1000 tensors and 1000 integrated members against their bounds, and of 200 averaged motions against their estimate; five minutes
 	$(BIN)/python tests/stress/bounds.py
 	$(BIN)/python tests/stress/tensors.py
+	$(BIN)/python tests/stress/member_bounds.py --members 1000
 	$(BIN)/python tests/stress/evolutions.py
 
 rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-driven rivals-partials rivals-ephemeris rivals-messages  ## the tables of ratios, in out/ too
