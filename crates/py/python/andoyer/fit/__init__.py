@@ -1,9 +1,10 @@
-"""Fits of states to data: `attitudes` fits measured attitudes, and `light_curve` fits brightnesses of an ellipsoid. Both return a `Fit`.
+"""Fits of states to data: `attitudes` fits measured attitudes, and `light_curve` fits brightnesses of an ellipsoid. Both return a `Fit`. `clones` draws states from published values.
 
 The module needs SciPy, which ``pip install scipy`` installs; pictures need matplotlib.
 """
 
 from andoyer.fit._attitudes import attitudes
+from andoyer.fit._clones import clones
 from andoyer.fit._light_curve import light_curve
 from andoyer.fit._magnitudes import ZeroPoints
 from andoyer.fit._optimum import Alias, Optimum
@@ -11,4 +12,4 @@ from andoyer.fit._result import Draws, Fit
 from andoyer.fit._scattering import brightness
 from andoyer.fit._verdict import SimpleRotation, Verdict
 
-__all__ = ["Alias", "Draws", "Fit", "Optimum", "SimpleRotation", "Verdict", "ZeroPoints", "attitudes", "brightness", "light_curve"]
+__all__ = ["Alias", "Draws", "Fit", "Optimum", "SimpleRotation", "Verdict", "ZeroPoints", "attitudes", "brightness", "clones", "light_curve"]

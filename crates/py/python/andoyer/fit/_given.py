@@ -125,15 +125,24 @@ def whitening(sigma: ArrayLike, count: int) -> Array:
         each = np.broadcast_to(positive("sigma", sigma, (), (count,)), (count,))
         scaled: Array = np.eye(3) / each[:, None, None]
         return scaled
-    covariances = shaped("sigma", sigma, (count, 3, 3))
-    for index, matrix in enumerate(covariances):
-        if not np.allclose(matrix, matrix.T, rtol=1e-9, atol=0.0):
-            raise refusal("sigma", index, "symmetric", f"[{index}] is not symmetric: it must be a covariance matrix")
-        least = float(np.linalg.eigvalsh(matrix)[0])
-        if not least > 0:
-            raise refusal("sigma", least, "above 0", f"[{index}] has the eigenvalue {least:.3g}: a covariance matrix has eigenvalues above 0")
-    inverse: Array = np.linalg.inv(np.linalg.cholesky(covariances))
+    inverse: Array = np.linalg.inv(np.linalg.cholesky(covariances("sigma", sigma, (count, 3, 3))))
     return inverse
+
+
+def covariances(argument: str, value: ArrayLike, shape: tuple[int, ...]) -> Array:
+    """A covariance matrix, or several: symmetric to 1e-9 and positive definite."""
+    array = shaped(argument, value, shape)
+    for index in np.ndindex(shape[:-2]):
+        matrix, place = array[index], f"[{index[0]}] " if index else ""
+        if not np.allclose(matrix, matrix.T, rtol=1e-9, atol=0.0):
+            raise refusal(argument, index[0] if index else None, "symmetric", f"{place}is not symmetric: it must be a covariance matrix")
+        deviations = np.sqrt(np.maximum(np.diag(matrix), 0.0))
+        # Units of standard deviations, so that those of the quantities do not matter.
+        scaled = matrix / np.outer(deviations, deviations) if np.all(deviations > 0) else matrix
+        least = float(np.linalg.eigvalsh(scaled)[0]) if len(scaled) else 1.0
+        if not least > len(scaled) * np.finfo(float).eps:
+            raise refusal(argument, least, "above 0", f"{place}has the eigenvalue {least:.3g}: a covariance matrix has eigenvalues above 0")
+    return array
 
 
 def freed(free: Any, known: tuple[str, ...]) -> tuple[str, ...]:
