@@ -3,7 +3,7 @@
     make evolution-times                          docs/data/evolution-times.csv
     python benches/evolution_times.py --print     the table alone
 
-Ten years of the satellite of examples/gallery/plot_21_satellite_years.py, and a million years of an asteroid of 1 km with 360 facets. A time is the median of five runs by the clock of the processor, without the torque's polynomials, which a row has beside it.
+Ten years of the satellite of examples/gallery/plot_21_satellite_years.py, and a million years of an asteroid of 1 km with 360 facets. A time is the median of three runs by the clock of the processor, without the torque's polynomials, which a row has beside it.
 `integration_ms` is that of `rotations` rotations by `Scene.solve` with a tolerance of 1e-6, from the same state. `ratio` is that time, by rotation, over the time of the averages, by rotation.
 `evaluation_us` is that of one evaluation of the averaged equations: `Evolution.at` makes one step of 17 evaluations for each time. `plan_ms` is that of `Evolution.plan`, which integrates the full equations over windows of thirty rotations.
 """
@@ -21,8 +21,8 @@ from figures import DATA
 import andoyer
 
 FILE = DATA / "evolution-times.csv"
-RUNS = 5
-TIMES, EVALUATIONS = 4000, 17
+RUNS = 3
+TIMES, EVALUATIONS, ROTATIONS = 2000, 17, 200
 TOLERANCE = 1e-6
 COLUMNS = ("scene", "years", "all_rotations", "degree", "torque_ms", "averages_ms", "evaluation_us", "plan_ms", "rotations", "integration_ms", "ratio")
 YEAR = 365.25 * 86400.0
@@ -112,7 +112,7 @@ def main():
     parser.add_argument("--print", action="store_true", help="write no file")
     options = parser.parse_args()
     warnings.simplefilter("ignore", andoyer.ToleranceWarning)
-    rows = [measured("a dead satellite", satellite(), 10, 1000), measured("an asteroid of 1 km", asteroid(), 1e6, 1000)]
+    rows = [measured("a dead satellite", satellite(), 10, ROTATIONS), measured("an asteroid of 1 km", asteroid(), 1e6, ROTATIONS)]
     for row in rows:
         print(row)
     if not options.print:
