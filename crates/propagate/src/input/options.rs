@@ -34,12 +34,14 @@ pub enum Method {
 }
 
 impl Method {
+    #[cfg(feature = "torques")]
+    const INTEGRATED: Option<Self> = Some(Self::Integrated);
+    #[cfg(not(feature = "torques"))]
+    const INTEGRATED: Option<Self> = None;
+
     /// Whether the motion is integrated.
     pub(crate) fn is_integrated(self) -> bool {
-        #[cfg(feature = "torques")]
-        return self == Self::Integrated;
-        #[cfg(not(feature = "torques"))]
-        false
+        Some(self) == Self::INTEGRATED
     }
 
     /// Whether it is a method of motions under torques.

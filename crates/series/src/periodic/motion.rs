@@ -48,6 +48,7 @@ pub struct PeriodicMotion {
 }
 
 /// Where Newton's iteration begins.
+#[derive(Clone, Debug)]
 pub struct Begin {
     grid: Grid,
     origin: Vec<Periodic>,
