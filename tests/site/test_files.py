@@ -1,11 +1,13 @@
 """Checks of the files of the built site: every link has a target, and no page loads files from elsewhere. They need no browser; `make docs` builds the site."""
 
 import re
+from urllib.parse import unquote
 
 import pytest
 from conftest import SITE
 
 PAGES = sorted(path for path in SITE.rglob("*.html") if "rust" not in path.parts and "_static" not in path.parts)
+PLACE = re.compile(r'href="([^"#?:]*)#([^"]+)"')
 
 
 def test_the_site_is_built():
@@ -17,6 +19,16 @@ def test_every_link_within_the_site_leads_somewhere(page):
     text = page.read_text(encoding="utf-8")
     targets = re.findall(r'(?:href|src)="([^"#?:]+)(?:[#?][^"]*)?"', text)
     assert [target for target in targets if not page.parent.joinpath(target).exists()] == []
+
+
+def test_every_place_in_a_page_that_a_link_names_exists():
+    texts = {page.resolve(): page.read_text(encoding="utf-8") for page in PAGES}
+    names = {page: set(re.findall(r'\b(?:id|name)="([^"]+)"', text)) for page, text in texts.items()}
+    links = [
+        (page, (page.parent / target).resolve() if target else page, unquote(place)) for page, text in texts.items() for target, place in PLACE.findall(text)
+    ]
+    assert len(links) > 1000
+    assert [(page.name, target.name, place) for page, target, place in links if target in names and place not in names[target]] == []
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(SITE)))
@@ -42,7 +54,7 @@ def test_llms_txt_lists_every_page_with_its_headings():
     lines = dict(re.findall(r"^- \[[^\]]+\]\(([^)]+)\)(?:: (.*))?$", text, re.MULTILINE))
     assert text.startswith("# andoyer\n\n> The attitude of rigid bodies") and "\n## Use\n" in text
     others = {"index.html", "search.html", "genindex.html", "py-modindex.html"}
-    pages = {str(page.relative_to(SITE)) for page in PAGES if page.parent.name != "pages"}
+    pages = {str(page.relative_to(SITE)) for page in PAGES if page.parent.name not in ("pages", "playground")}
     assert pages - others == set(lines)
     assert lines["start.html"].split("; ")[:2] == ["An answer", "Its error"]
 

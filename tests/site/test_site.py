@@ -17,6 +17,9 @@ WITH_PICTURES = {
     "series-or-closed.html": 1,
 }
 
+# Each page has an entry of the index for its words.
+SOUGHT = {"libration": "locked.html", "YORP": "evolution.html", "light curve": "fits.html", "kernel": "files.html", "CubeSat": "satellite.html"}
+
 BROKEN = "[...document.images].filter(image => !(image.complete && image.naturalWidth > 1)).map(image => image.src)"
 # Code and output whose text is wider than its box.
 OUTSIDE = """[...document.querySelectorAll('article pre')].filter(box => box.getClientRects().length && box.scrollWidth > box.clientWidth + 1)
@@ -71,6 +74,22 @@ def test_no_line_of_code_or_output_runs_out_of_its_box(visits, page, width):
     assert visit.run(SIDEWAYS) <= 0
 
 
+@pytest.mark.parametrize("page", PAGES)
+def test_no_page_is_longer_than_twenty_windows(visits, page):
+    visit = visits(1300)
+    visit.open(page)
+    assert visit.run("document.documentElement.scrollHeight") <= 20_000
+
+
+@pytest.mark.parametrize("words, page", SOUGHT.items())
+def test_search_finds_the_page_of_a_subject_first(visits, words, page):
+    visit = visits(1300)
+    visit.open(f"search.html?q={words.replace(' ', '+')}")
+    visit.page.wait_for_selector(".search-summary")
+    visit.page.wait_for_selector("#search-results li a")
+    assert visit.run("document.querySelector('#search-results li a').getAttribute('href').split(/[?#]/)[0]") == page
+
+
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
 def test_script_of_the_gallery_says_something_without_a_warning_and_its_page_has_its_pictures(visits, script):
     visit = visits(1300)
@@ -84,8 +103,10 @@ def test_each_function_that_draws_has_its_picture(visits):
     from andoyer import plot
 
     visit = visits(1300)
-    visit.open("pictures.html")
-    drawn = visit.run("[...document.querySelectorAll('article img')].map(image => image.alt)")
+    drawn = []
+    for page in ("pictures.html", "pictures-orbits.html"):
+        visit.open(page)
+        drawn += visit.run("[...document.querySelectorAll('article img')].map(image => image.alt)")
     assert sorted(set(drawn)) == sorted(set(plot.__all__) - {"whole_turns", "page", "animate"})
 
 
