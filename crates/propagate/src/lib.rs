@@ -119,14 +119,18 @@ pub mod libration_terms {
 pub mod torques {
     //! Torques beside the gravity gradient, under which scenes are integrated.
     #[cfg(feature = "torques")]
+    pub use crate::evolution::distance_rule::DistanceRule;
+    #[cfg(feature = "torques")]
     pub use crate::evolution::facets::{Facet, Finish, Light};
     #[cfg(feature = "torques")]
     pub use crate::evolution::obj::Mesh;
     #[cfg(feature = "torques")]
     pub use crate::evolution::sphere::SphereRule;
+    pub use crate::input::distance_law::DistanceLaw;
     pub use crate::input::energy_loss::{EnergyLoss, LossState};
     pub use crate::input::gravity::Gravity;
-    pub use crate::input::torque::{PolynomialTorque, SourcePath, Torque, TorqueSource};
+    pub use crate::input::torque::{PolynomialTorque, Torque};
+    pub use crate::input::torque_source::{SourcePath, TorqueSource};
     pub use crate::orbit::field::DipoleField;
 }
 

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use andoyer_propagate::torques::{Facet, Finish, Light, Mesh, SphereRule, Torque as Inner, TorqueSource};
+use andoyer_propagate::torques::{
+    DistanceRule, Facet, Finish, Light, Mesh, SourcePath, SphereRule, Torque as Inner, TorqueSource,
+};
 use andoyer_series::error::Kind;
 use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
@@ -13,6 +15,7 @@ use crate::array;
 use crate::computing::detached;
 use crate::error;
 use crate::order::whole_number;
+use crate::scene::arguments::kind;
 use crate::torque::{Torque, source_path};
 
 #[pymethods]
@@ -181,13 +184,17 @@ impl Torque {
     ///     The distance of the values, as of `Torque.from_facets`.
     /// power : float, optional
     ///     The torque falls with this power of the distance; by default 2, as light. A direction has no distance.
+    /// law : callable, optional
+    ///     f(r) in the place of a power: the torque is multiplied by f(r)/f(at), such as a law of sublimation. Called once with distances in the unit of `at`, shape (n,), it returns numbers of at least 0, shape (n,).
+    ///     It becomes a Chebyshev series in 1/r of at most 128 terms between the nearest and the farthest distance of the source; `truncation` has what this leaves out, too.
     /// degree : int, optional
     ///     Degree of the polynomials, 1 to 8.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     A value that is not finite; an array of another shape; a degree outside 1 to 8.
+    ///     A value that is not finite; an array of another shape; a degree outside 1 to 8; a law with a power, or for a direction; a value of a law that is negative, or 0 at `at`; a law that is not smooth: its series leaves out more than
+    ///     1e-6 of its largest value.
     ///
     /// Examples
     /// --------
@@ -197,31 +204,39 @@ impl Torque {
     /// (array([ 0.  , -0.96,  0.  ]), True)
     #[classmethod]
     #[pyo3(
-        signature = (table, *, source, at=None, power=None, degree=None),
-        text_signature = "(table, *, source, at=None, power=2.0, degree=8)"
+        signature = (table, *, source, at=None, power=None, law=None, degree=None),
+        text_signature = "(table, *, source, at=None, power=2.0, law=None, degree=8)"
     )]
+    #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn sphere(
         class: &Bound<'_, PyType>,
         table: &Bound<'_, PyAny>,
         source: &Bound<'_, PyAny>,
         at: Option<&Bound<'_, PyAny>>,
         power: Option<&Bound<'_, PyAny>>,
+        law: Option<&Bound<'_, PyAny>>,
         degree: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let py = class.py();
         let rule = SphereRule::of_degree(asked_degree(degree)?).map_err(error::propagation)?;
         let path = source_path(source)?;
-        let falls = !matches!(path, andoyer_propagate::torques::SourcePath::Direction(_));
-        let power = optional("power", power, if falls { 2.0 } else { 0.0 })?;
+        let power = power.map(|power| array::number("power", power)).transpose()?;
         let at = at.map(|at| array::number("at", at)).transpose()?;
-        let source = TorqueSource::new("s", path).falling(power, at);
-        if table.is_callable() {
+        let law = law.map(|law| strengths(law, path.clone(), (at, power))).transpose()?;
+        let values = if table.is_callable() {
             let directions = array::constant_rows(py, &rule.directions())?;
-            let values = array::vectors("table", &table.call1((directions,))?)?;
-            return detached(py, error::propagation, || rule.torque(&values, source)).map(Self);
-        }
-        let rows = array::coefficients("table", table)?;
-        let torque = || rule.torque(&rule.of_harmonics(&rows)?, source);
+            array::vectors("table", &table.call1((directions,))?)?
+        } else {
+            rule.of_harmonics(&array::coefficients("table", table)?).map_err(error::propagation)?
+        };
+        let torque = || match &law {
+            Some((distances, strengths)) => distances.torque(strengths, (&rule, &values)),
+            None => {
+                let falls = !matches!(path, SourcePath::Direction(_));
+                let source = TorqueSource::new("s", path.clone());
+                rule.torque(&values, source.falling(power.unwrap_or(if falls { 2.0 } else { 0.0 }), at))
+            }
+        };
         detached(py, error::propagation, torque).map(Self)
     }
 
@@ -266,6 +281,26 @@ impl Torque {
     fn truncation(&self) -> f64 {
         self.0.truncation()
     }
+}
+
+/// The distances at which a law of a source must be known, and its values there.
+fn strengths(
+    law: &Bound<'_, PyAny>,
+    path: SourcePath,
+    (at, power): (Option<f64>, Option<f64>),
+) -> PyResult<(DistanceRule, Vec<f64>)> {
+    if let Some(power) = power {
+        let message = format!("power = {power}: it must be absent beside a law, which has the place of a power");
+        return Err(error::input("power", power, "absent beside a law", message));
+    }
+    if !law.is_callable() {
+        return Err(PyTypeError::new_err(format!("law must be a callable of distances, not {}", kind(law))));
+    }
+    let rule = DistanceRule::new("s", path, at).map_err(error::propagation)?;
+    let distances = rule.distances();
+    let found = law.call1((array::constant(law.py(), &distances),))?;
+    let values = array::fixed_length("law", &found, distances.len())?;
+    Ok((rule, values))
 }
 
 fn optional(argument: &str, value: Option<&Bound<'_, PyAny>>, default: f64) -> PyResult<f64> {

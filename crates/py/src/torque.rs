@@ -1,8 +1,9 @@
 //! `andoyer.Torque`.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
-use andoyer_propagate::torques::{EnergyLoss, SourcePath, Torque as Inner, TorqueSource};
+use andoyer_propagate::torques::{DistanceLaw, EnergyLoss, SourcePath, Torque as Inner, TorqueSource};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
@@ -170,11 +171,12 @@ impl Torque {
         let py = class.py();
         let [sources, powers, distances] =
             [sources, distance_powers, reference_distances].map(|given| given.unwrap_or_else(|| PyDict::new(py)));
-        Self::_polynomial(class, texts, &sources, &powers, &distances, 0.0)
+        Self::_polynomial(class, texts, &sources, &powers, &distances, 0.0, HashMap::new())
     }
 
     #[classmethod]
-    #[pyo3(signature = (texts, sources, distance_powers, reference_distances, truncation=0.0))]
+    #[pyo3(signature = (texts, sources, distance_powers, reference_distances, truncation=0.0, laws=HashMap::new()))]
+    #[expect(clippy::too_many_arguments, reason = "the parts of a pickled torque")]
     fn _polynomial(
         _class: &Bound<'_, PyType>,
         texts: &Bound<'_, PyAny>,
@@ -182,6 +184,7 @@ impl Torque {
         distance_powers: &Bound<'_, PyDict>,
         reference_distances: &Bound<'_, PyDict>,
         truncation: f64,
+        mut laws: HashMap<String, (Vec<f64>, [f64; 2])>,
     ) -> PyResult<Self> {
         let three = || PyTypeError::new_err("texts must be three texts, one for each body axis");
         let texts: Vec<String> = texts.extract().map_err(|_| three())?;
@@ -194,16 +197,19 @@ impl Torque {
                 }
             }
         }
-        let source = |(name, path): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<TorqueSource> {
+        let mut source = |(name, path): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<TorqueSource> {
             let value = |given: &Bound<'_, PyDict>, argument: &str| {
                 given.get_item(&name)?.map(|value| number(argument, &value)).transpose()
             };
             let power = value(distance_powers, "distance_powers")?.unwrap_or(0.0);
             let distance = value(reference_distances, "reference_distances")?;
             let name: String = name.extract()?;
-            Ok(TorqueSource::new(&name, source_path(&path)?).falling(power, distance))
+            let source = TorqueSource::new(&name, source_path(&path)?).falling(power, distance);
+            let Some((coefficients, between)) = laws.remove(&name) else { return Ok(source) };
+            let law = DistanceLaw::new(coefficients, between).map_err(error::propagation)?;
+            Ok(source.following(Arc::new(law)))
         };
-        let sources = sources.iter().map(source).collect::<PyResult<Vec<_>>>()?;
+        let sources = sources.iter().map(&mut source).collect::<PyResult<Vec<_>>>()?;
         let torque = Inner::polynomial([first, second, third], sources);
         made(torque.and_then(|torque| torque.truncated(truncation)))
     }
@@ -215,13 +221,14 @@ impl Torque {
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let written = self.written(py)?;
-        if written.chars().count() <= MOST_WRITTEN {
+        let (written, law) = (self.written(py)?, self.laws().next().is_some());
+        if !law && written.chars().count() <= MOST_WRITTEN {
             return Ok(written);
         }
         let left_out =
             if self.0.truncation() > 0.0 { format!(", truncation {:.2e}", self.0.truncation()) } else { String::new() };
-        Ok(format!("<Torque, polynomials of degree {}{left_out}>", self.0.degree()))
+        let law = if law { ", a law of the distance" } else { "" };
+        Ok(format!("<Torque, polynomials of degree {}{law}{left_out}>", self.0.degree()))
     }
 
     fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
@@ -235,7 +242,13 @@ impl Torque {
 }
 
 impl Torque {
-    /// As Python code, without the truncation.
+    /// The laws of the distances to sources, by their names.
+    fn laws(&self) -> impl Iterator<Item = (String, &DistanceLaw)> {
+        let sources = if let Inner::Polynomial(torque) = &self.0 { torque.sources() } else { &[] };
+        sources.iter().filter_map(|source| Some((source.name().to_owned(), &**source.law()?)))
+    }
+
+    /// As Python code, without the truncation and laws of distances.
     fn written(&self, py: Python<'_>) -> PyResult<String> {
         let Inner::Polynomial(torque) = &self.0 else {
             let (method, arguments) = self.parts(py)?;
@@ -259,7 +272,9 @@ impl Torque {
             Inner::Damping(rows) => ("damping", PyTuple::new(py, [rows.map(|row| row.to_vec()).to_vec()])?),
             Inner::Polynomial(torque) => {
                 let [texts, sources, powers, distances] = self.of_polynomial(py)?;
-                ("_polynomial", (texts, sources, powers, distances, torque.truncation()).into_pyobject(py)?)
+                let laws = self.laws().map(|(name, law)| (name, (law.coefficients().to_vec(), law.between())));
+                let laws: HashMap<_, _> = laws.collect();
+                ("_polynomial", (texts, sources, powers, distances, torque.truncation(), laws).into_pyobject(py)?)
             }
             Inner::Dissipation(loss) => {
                 let origin = loss.origin().and_then(|origin| origin.downcast_ref::<Py<PyAny>>());

@@ -190,28 +190,3 @@ def test_absorbed_light_on_a_closed_body_has_no_drift_over_an_orbit():
         light = Torque.from_facets(corners - corners.mean(axis=0), sides, emission=emission, pressure=1e-4, source=Orbit(2e-7, 0.2))
         rates.append(np.linalg.norm(Scene(Body(MOMENTS), *start, torques=[light]).drift(average="orbit").momentum))
     assert rates[0] < 1e-13 * rates[1]
-
-
-def test_a_law_of_sublimation_is_a_sum_of_powers():
-    # The recipe of docs/evolution.md with the default law of JPL for comets, against the mean of the law itself over places of equal times.
-    orbit = Orbit(2e-7, 0.641, inclination=0.4, semi_major_axis=3.463)
-    least, most = 3.463 * 0.359, 3.463 * 1.641
-    powers, r = np.arange(2, 9), np.linspace(least, most, 200)
-
-    def law(r):
-        return 0.111262 * (r / 2.808) ** -2.15 * (1 + (r / 2.808) ** 5.093) ** -4.6142
-
-    def jet(u):
-        return 1e-7 * np.maximum(0, u @ [0.6, 0.0, 0.8])[:, None] * [0.2, 0.3, -0.1]
-
-    factors = np.linalg.lstsq((least / r[:, None]) ** powers, law(r), rcond=None)[0]
-    torques = [Torque.sphere(lambda u, c=c: c * jet(u), source=orbit, at=least, power=float(p), degree=4) for p, c in zip(powers, factors)]
-    start = state(2, 1, 0.2 * separatrix(2), np.array([0.3, -0.4, 0.85]))
-    found = Scene(Body(MOMENTS), *start, torques=torques).drift(average="orbit")
-    alone = Torque.sphere(jet, source=orbit, power=0.0, degree=4)
-    rates = []
-    for epoch in 2 * np.pi / 2e-7 * (np.arange(96) + 0.5) / 96:
-        here = Scene(Body(MOMENTS), *start, epoch=epoch, torques=[alone]).drift(average="spin")
-        rates.append(law(np.linalg.norm(orbit.position(epoch))) * np.append(here.momentum, here.excess))
-    mean = np.mean(rates, axis=0)
-    assert np.abs(np.append(found.momentum, found.excess) - mean).max() < 3e-3 * np.abs(mean).max()

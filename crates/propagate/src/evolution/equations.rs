@@ -8,7 +8,8 @@ use super::sources::{MovingSource, View};
 use crate::error::{Error, torque_refused};
 use crate::input::energy_loss::{EnergyLoss, LossState};
 use crate::input::scene::Scene;
-use crate::input::torque::{SourcePath, Torque};
+use crate::input::torque::Torque;
+use crate::input::torque_source::SourcePath;
 use crate::orbit::disturbing_body::DisturbingBody;
 
 /// Rates of the slow variables.
@@ -296,9 +297,7 @@ fn sorted_torques(torque: &Torque, sort: &Matrix3<f64>) -> Result<(Vec<SortedTor
             one(SortedTorque::of_rates(&Vector3::zeros(), &-matrix))
         }
         Torque::Polynomial(torque) => {
-            let sources =
-                torque.sources().iter().map(|source| MovingSource::new(source.path(), source.distance_power()));
-            Ok((SortedTorque::of_polynomial(torque, sort)?, sources.collect()))
+            Ok((SortedTorque::of_polynomial(torque, sort)?, torque.sources().iter().map(MovingSource::new).collect()))
         }
         Torque::Rotor(momentum) => {
             let bound = "absent: a body with rotors does not rotate as a rigid body alone; integrate the scene";

@@ -7,7 +7,8 @@ use nalgebra::Vector3;
 use super::harmonic::{Form, half_range, harmonic_parts, zonal_sum};
 use super::sphere::{SphereRule, check_degree};
 use crate::error::{Error, torque_refused};
-use crate::input::torque::{SourcePath, Torque, TorqueSource};
+use crate::input::torque::Torque;
+use crate::input::torque_source::{SourcePath, TorqueSource};
 
 /// How a surface reflects and radiates.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,6 +3,7 @@
 //! [`facets`], [`sphere`] and [`obj`] make torques of shapes, [`rows`] and [`equations`] average torques over [`polhode_means`], [`drift`] and [`evolve`] are what users call.
 
 pub(crate) mod averaged_scene;
+pub(crate) mod distance_rule;
 pub(crate) mod drift;
 mod elliptic;
 mod equations;

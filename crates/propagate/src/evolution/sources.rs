@@ -1,17 +1,21 @@
 //! Where sources are, and how their torques are averaged over an orbit (weak torques (11)).
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use nalgebra::Vector3;
 
 use crate::error::Error;
-use crate::input::torque::SourcePath;
+use crate::input::distance_law::DistanceLaw;
+use crate::input::torque_source::{SourcePath, TorqueSource};
 use crate::orbit::elements::Orbit;
 use crate::orbit::field::DipoleField;
 use crate::orbit::table::TabulatedOrbit;
 
-/// Points of the true anomaly for a fall that is no integer power of 2 or more.
-const MANY: usize = 128;
+/// Least and most points of the true anomaly for a fall that is no integer power of 2 or more.
+const MANY: [usize; 2] = [128, 4096];
+/// −ln of a rounding error.
+const DIGITS: f64 = 37.0;
 /// Places on an orbit, and turns of the moment, of a field.
 const PLACES: usize = 48;
 const TURNS: usize = 12;
@@ -33,6 +37,8 @@ pub(super) struct MovingSource {
     pub(super) power: f64,
     /// In the unit of length of the path.
     pub(super) reference: f64,
+    /// A function of (r₀/r)^power in the place of this power.
+    pub(super) law: Option<Arc<DistanceLaw>>,
     /// Whether the torque is averaged over the orbit.
     pub(super) over_orbit: bool,
     /// The largest rate of its direction [rad/time]: at the pericentre, or between two rows of a table.
@@ -40,13 +46,14 @@ pub(super) struct MovingSource {
 }
 
 impl MovingSource {
-    /// Of a path with the power of the distance and the reference distance as users give it.
-    pub(super) fn new(path: &SourcePath, (power, reference): (f64, f64)) -> Self {
-        let unit = match path {
+    /// As users give it.
+    pub(super) fn new(source: &TorqueSource) -> Self {
+        let (power, reference) = source.distance_power();
+        let unit = match source.path() {
             SourcePath::Orbit(orbit) => orbit.asked_semi_major_axis().unwrap_or(1.0),
             _ => 1.0,
         };
-        Self::in_units(path.clone(), power, reference / unit)
+        Self { law: source.law().cloned(), ..Self::in_units(source.path().clone(), power, reference / unit) }
     }
 
     /// With the reference distance in the unit of length of the path.
@@ -57,7 +64,7 @@ impl MovingSource {
             SourcePath::Field(field) => 2.0 * fastest_of_orbit(field.orbit()) + field.rotation_rate().abs(),
             SourcePath::Direction(_) => 0.0,
         };
-        Self { path, power, reference, over_orbit: false, fastest }
+        Self { path, power, reference, law: None, over_orbit: false, fastest }
     }
 
     /// The orbit, if it is an ellipse.
@@ -103,9 +110,14 @@ impl MovingSource {
             SourcePath::Direction(vector) => Vector3::from(*vector),
         };
         let distance = place.amax() * (place / place.amax()).norm();
-        let weight = if self.power == 0.0 { 1.0 } else { (self.reference / distance).powf(self.power) };
-        out.push(View { direction: place / distance, weight, zonal: false });
+        out.push(View { direction: place / distance, weight: self.weight(distance), zonal: false });
         Ok(())
+    }
+
+    /// The factor of the torque at a distance in the unit of the path.
+    fn weight(&self, distance: f64) -> f64 {
+        let power = if self.power == 0.0 { 1.0 } else { (self.reference / distance).powf(self.power) };
+        self.law.as_ref().map_or(power, |law| law.value(power))
     }
 
     /// The mean over the orbit and over the turn of the moment, whose rates have no common multiple.
@@ -130,24 +142,31 @@ impl MovingSource {
         }
     }
 
+    /// Points of the true anomaly f for a mean to rounding errors: the Fourier coefficients of 1/(1 + e cos f) fall with (e/(1 + η))^n.
+    fn many(&self, e: f64) -> usize {
+        let fall = ((1.0 + ((1.0 - e) * (1.0 + e)).sqrt()) / e).ln();
+        let degree = self.law.as_ref().map_or(self.power.abs(), |law| law.coefficients().len() as f64);
+        ((degree + DIGITS / fall).ceil() as usize + DEGREE).clamp(MANY[0], MANY[1])
+    }
+
     /// The mean over the orbit: exact in one view for p = 2.
     fn around(&self, orbit: &Orbit, (epoch, time): (f64, f64), out: &mut Vec<View>) {
         let [to_pericentre, ahead, normal] = orbit.axes_after(epoch, time - epoch);
         let e = orbit.eccentricity();
         let square = (1.0 - e) * (1.0 + e);
-        if self.power == 2.0 {
+        if self.power == 2.0 && self.law.is_none() {
             // ⟨(a/r)² ·⟩: ŝ → n̂, w_l → P_l(0)/√(1−e²)
             let weight = self.reference * self.reference / square.sqrt();
             out.push(View { direction: normal, weight, zonal: true });
             return;
         }
         let whole = self.power >= 2.0 && self.power.fract() == 0.0 && self.power < 100.0;
-        let points = if whole { DEGREE + self.power as usize + 1 } else { MANY };
+        let points = if whole { DEGREE + self.power as usize + 1 } else { self.many(e) };
         for j in 0..points {
             let (sine, cosine) = (TAU * (j as f64 + 0.5) / points as f64).sin_cos();
             // dM/2π = (r/a)² df/(2π η), r/a = η²/(1 + e cos f)
             let radius = square / (1.0 + e * cosine);
-            let weight = (self.reference / radius).powf(self.power) * radius * radius / square.sqrt() / points as f64;
+            let weight = self.weight(radius) * radius * radius / square.sqrt() / points as f64;
             out.push(View { direction: to_pericentre * cosine + ahead * sine, weight, zonal: false });
         }
     }

@@ -8,7 +8,8 @@ use nalgebra::Vector3;
 
 use super::harmonic::{Form, zonal_sum};
 use crate::error::{Error, torque_refused};
-use crate::input::torque::{MOST_DEGREE, PolynomialTorque, Torque, TorqueSource};
+use crate::input::torque::{MOST_DEGREE, PolynomialTorque, Torque};
+use crate::input::torque_source::TorqueSource;
 
 /// A torque that is known on the sphere is sampled up to this degree beyond that of its polynomials: for light on facets it keeps the aliasing below the truncation.
 const BEYOND: u32 = 16;

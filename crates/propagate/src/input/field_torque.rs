@@ -1,6 +1,7 @@
 //! Torques of a magnetic field: m × B of a dipole, and eddy currents.
 
-use super::torque::{SourcePath, Torque, TorqueSource, parsed};
+use super::torque::{Torque, parsed};
+use super::torque_source::{SourcePath, TorqueSource};
 use crate::error::{Error, torque_refused};
 
 /// The components of the unit vector along a field.

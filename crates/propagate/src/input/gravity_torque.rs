@@ -9,7 +9,8 @@
 use andoyer_series::Polynomial;
 
 use super::gravity::{Gravity, HARMONICS};
-use super::torque::{SourcePath, Torque, TorqueSource};
+use super::torque::Torque;
+use super::torque_source::{SourcePath, TorqueSource};
 use crate::error::{Error, torque_refused};
 use crate::orbit::disturbing_body::DisturbingBody;
 

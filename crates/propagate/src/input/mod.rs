@@ -2,6 +2,7 @@
 
 pub(crate) mod body;
 mod catalogue;
+pub(crate) mod distance_law;
 pub(crate) mod energy_loss;
 mod field_torque;
 pub(crate) mod gravity;
@@ -13,3 +14,4 @@ pub(crate) mod scene;
 pub(crate) mod state;
 pub(crate) mod torque;
 mod torque_parameters;
+pub(crate) mod torque_source;

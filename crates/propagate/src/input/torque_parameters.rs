@@ -1,6 +1,7 @@
 //! The parameters of a torque, in which it is linear, for derivatives with respect to them.
 
-use super::torque::{PolynomialTorque, SourcePath, Torque};
+use super::torque::{PolynomialTorque, Torque};
+use super::torque_source::SourcePath;
 use crate::error::Error;
 
 /// A polynomial with more coefficients has its factor alone.

@@ -20,6 +20,7 @@ mod interpolation;
 mod lane_series;
 mod lane_tasks;
 mod lanes;
+mod law_series;
 mod linear;
 mod path_series;
 mod products;

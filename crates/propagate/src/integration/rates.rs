@@ -2,7 +2,8 @@
 
 use crate::error::Error;
 use crate::input::scene::Scene;
-use crate::input::torque::{SourcePath, Torque, TorqueSource};
+use crate::input::torque::Torque;
+use crate::input::torque_source::{SourcePath, TorqueSource};
 use crate::numerics::scaling::{exponent, scaled};
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
@@ -138,8 +139,11 @@ pub(super) fn rates_of_table(table: &TabulatedOrbit) -> (f64, f64) {
     (rate(nearest), rate(farthest))
 }
 
-/// The largest and the smallest (r₀/r)^p of a source.
+/// The largest and the smallest (r₀/r)^p of a source, or law of it.
 pub(super) fn falls(source: &TorqueSource, scene: &Scene) -> [f64; 2] {
+    if let Some(law) = source.law() {
+        return law.extremes();
+    }
     let (power, reference) = source.distance_power();
     let distances = match source.path() {
         SourcePath::Orbit(orbit) => {

@@ -4,14 +4,19 @@
 //! A monomial is a product of two shorter ones, so that each coefficient of its series is one sum of products of coefficients. Monomials with a common part share
 //! its series.
 
+use std::sync::Arc;
+
 use nalgebra::{Matrix3, Vector3};
 
 use super::interpolation::Table;
+use super::law_series::law_series;
 use super::path_series::PathSeries;
 use super::rates::falls;
 use super::series::{ROWS, Scalars, Series, ZERO, product};
+use crate::input::distance_law::DistanceLaw;
 use crate::input::scene::Scene;
-use crate::input::torque::{PolynomialTorque, SourcePath, Torque, TorqueSource};
+use crate::input::torque::{PolynomialTorque, Torque};
+use crate::input::torque_source::{SourcePath, TorqueSource};
 use crate::numerics::scaling::scaled;
 use crate::simd::instruction_set::InstructionSet;
 
@@ -49,11 +54,12 @@ struct Recipe {
     roundings: f64,
 }
 
-/// A source: the unit vector to it, and (r₀/r)^p.
+/// A source: the unit vector to it, and (r₀/r)^p or a law of it.
 #[derive(Clone, Debug)]
 struct SourceSeries {
     direction: Result<PathSeries, [f64; 3]>,
     fall: Option<PathSeries>,
+    law: Option<Arc<DistanceLaw>>,
 }
 
 /// The series of one polynomial torque about the start of a step.
@@ -180,7 +186,8 @@ impl Torques {
                     Err([x, y, z]) => place[0] = [*x, *y, *z, 0.0],
                 }
                 if let Some(fall) = &source.fall {
-                    let (before, factor) = (series.fall, fall.factor(simd, time, order));
+                    let (before, ratio) = (series.fall, fall.factor(simd, time, order));
+                    let factor = source.law.as_ref().map_or(ratio, |law| law_series(law, &ratio, order));
                     series.fall = std::array::from_fn(|k| if k < order { product(&before, &factor, k) } else { 0.0 });
                 }
             }
@@ -236,7 +243,7 @@ impl SourceSeries {
             SourcePath::Direction(_) => 1.0,
         };
         let fall = (power != 0.0).then(|| path((reference / size).powf(power), -power).ok()).flatten();
-        Self { direction: path(1.0, -1.0), fall }
+        Self { direction: path(1.0, -1.0), fall, law: source.law().cloned() }
     }
 }
 
@@ -273,7 +280,10 @@ impl Recipe {
                 }
             }
         }
-        let powers = torque.sources().iter().map(|source| source.distance_power().0.abs()).sum::<f64>();
+        let power = |source: &TorqueSource| {
+            source.law().map_or(source.distance_power().0.abs(), |law| law.coefficients().len() as f64)
+        };
+        let powers = torque.sources().iter().map(power).sum::<f64>();
         let of_field = torque.sources().iter().any(|source| matches!(source.path(), SourcePath::Field(_)));
         // A direction of a field is a polynomial of degree 3 in those of its orbit and its moment.
         let operations = if of_field { 4.0 } else { 1.0 };

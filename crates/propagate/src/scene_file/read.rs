@@ -6,14 +6,16 @@ use nalgebra::Vector3;
 
 use super::refusal::Refusal;
 use super::tables::{
-    BodyTable, FieldTable, GravityTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable, SourceTable, StateTable,
-    TorqueTable,
+    BodyTable, FieldTable, GravityTable, LawTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable, SourceTable,
+    StateTable, TorqueTable,
 };
 use crate::input::body::Body;
+use crate::input::distance_law::DistanceLaw;
 use crate::input::gravity::Gravity;
 use crate::input::scene::Scene;
 use crate::input::state::State;
-use crate::input::torque::{SourcePath, Torque, TorqueSource};
+use crate::input::torque::Torque;
+use crate::input::torque_source::{SourcePath, TorqueSource};
 use crate::observed::periods::ObservedPeriods;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
@@ -153,7 +155,13 @@ impl SourceTable {
             }
         };
         let source = TorqueSource::new(&self.name, path);
-        Ok(source.falling(self.power.unwrap_or(0.0), self.reference_distance))
+        let source = source.falling(self.power.unwrap_or(0.0), self.reference_distance);
+        Ok(match self.law {
+            Some(LawTable { coefficients, between }) => {
+                source.following(Arc::new(DistanceLaw::new(coefficients, between)?))
+            }
+            None => source,
+        })
     }
 }
 

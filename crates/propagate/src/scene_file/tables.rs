@@ -76,11 +76,21 @@ pub(super) struct SourceTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) reference_distance: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) law: Option<LawTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) direction: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) orbit: Option<OrbitTable>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) field: Option<FieldTable>,
+}
+
+/// `[torque.source.law]`: a Chebyshev series in r₀/r.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LawTable {
+    pub(super) coefficients: Vec<f64>,
+    pub(super) between: [f64; 2],
 }
 
 /// `[torque.source.field]`: of a dipole, at a body on the orbit of the source.

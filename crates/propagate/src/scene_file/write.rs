@@ -1,13 +1,15 @@
 //! From a scene to the tables of a file.
 
 use super::tables::{
-    BodyTable, FieldTable, GravityTable, OrbitTable, OrbitTables, SceneTable, SourceTable, StateTable, TorqueTable,
+    BodyTable, FieldTable, GravityTable, LawTable, OrbitTable, OrbitTables, SceneTable, SourceTable, StateTable,
+    TorqueTable,
 };
 use crate::input::body::Body;
 use crate::input::gravity::Gravity;
 use crate::input::options::{Averaging, Level};
 use crate::input::scene::Scene;
-use crate::input::torque::{SourcePath, Torque, TorqueSource};
+use crate::input::torque::Torque;
+use crate::input::torque_source::{SourcePath, TorqueSource};
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
 use crate::orbit::field::DipoleField;
@@ -90,6 +92,7 @@ impl SourceTable {
             name: source.name().to_owned(),
             power: falls.then_some(power),
             reference_distance: falls.then_some(distance),
+            law: source.law().map(|law| LawTable { coefficients: law.coefficients().to_vec(), between: law.between() }),
             direction,
             orbit,
             field,

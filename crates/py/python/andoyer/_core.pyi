@@ -346,6 +346,7 @@ class Torque:
         source: Orbit | TabulatedOrbit | ArrayLike,
         at: float | None = None,
         power: float = 2.0,
+        law: Callable[[_Array], ArrayLike] | None = None,
         degree: int = 8,
     ) -> Torque:
         """The torque with given values for all directions to a source, as polynomials."""
