@@ -371,6 +371,16 @@ andoyer_series::error_table! {
             problem: Box<Error> = "The error of this member.",
         } => problem.kind(), problem.facts();
 
+        /// An error of which only the statement is known: that of a refused member of an ensemble that was pickled.
+        #[error("{message}")]
+        Stated {
+            kind: Kind = "Its kind.",
+            argument: Option<String> = "The argument.",
+            value: Option<Box<Value>> = "The given value.",
+            bound: Option<Box<Value>> = "The requirement on the value.",
+            message: String = "Its sentence.",
+        } => *kind, Facts { argument: argument.as_deref(), value: value.as_deref().cloned(), bound: bound.as_deref().cloned() };
+
         /// An unknown word for the treatment of bad members of an ensemble.
         #[error("errors = {value:?}: it must be \"raise\" or \"nan\"")]
         OnError { value: String = "The word as given." } => Input, facts("errors", value, "raise, nan");

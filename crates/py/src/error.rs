@@ -13,7 +13,7 @@ use andoyer_series::error::{Kind, Value};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyFloat, PyInt, PyString, PyTuple};
 
 create_exception!(
     andoyer,
@@ -79,6 +79,23 @@ pub(crate) fn propagation(error: Propagation) -> PyErr {
         Propagation::Member { index, .. } => with_attribute(exception, "index", index),
         _ => exception,
     }
+}
+
+/// The error of propagation that an exception states.
+pub(crate) fn stated(exception: &Bound<'_, PyAny>) -> PyResult<Propagation> {
+    let kinds = [
+        (exception.is_instance_of::<InputError>(), Kind::Input),
+        (exception.is_instance_of::<FileError>(), Kind::File),
+        (exception.is_instance_of::<RepresentationError>(), Kind::Representation),
+        (exception.is_instance_of::<TheoryError>(), Kind::Theory),
+    ];
+    Ok(Propagation::Stated {
+        kind: kinds.into_iter().find(|(is, _)| *is).map_or(Kind::Internal, |(_, kind)| kind),
+        argument: exception.getattr("argument")?.extract()?,
+        value: fact(exception, "value")?,
+        bound: fact(exception, "bound")?,
+        message: exception.str()?.extract()?,
+    })
 }
 
 /// The exception for an error of the exact algebra.
@@ -163,4 +180,25 @@ impl<'py> IntoPyObject<'py> for Fact {
             _ => Ok(py.None().into_bound(py)),
         }
     }
+}
+
+/// The value of an attribute of an exception.
+fn fact(exception: &Bound<'_, PyAny>, name: &str) -> PyResult<Option<Box<Value>>> {
+    let given = exception.getattr(name)?;
+    let value = if given.is_none() {
+        return Ok(None);
+    } else if given.is_instance_of::<PyString>() {
+        Value::Text(given.extract()?)
+    } else if given.is_instance_of::<PyFloat>() {
+        Value::Number(given.extract()?)
+    } else if given.is_instance_of::<PyInt>() {
+        Value::Integer(given.extract()?)
+    } else if let Ok(integers) = given.extract() {
+        Value::Integers(integers)
+    } else if let Ok(numbers) = given.extract() {
+        Value::Numbers(numbers)
+    } else {
+        Value::Text(given.str()?.extract()?)
+    };
+    Ok(Some(Box::new(value)))
 }

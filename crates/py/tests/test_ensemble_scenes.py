@@ -125,8 +125,6 @@ def test_clones_have_the_periods_asked_for_and_those_that_no_body_can_have_are_c
     alone = Scene.from_periods(body, precession[3], rotation[3], mode="short-axis", momentum_direction=directions[3], **options)
     np.testing.assert_array_equal(clones.attitude(50.0)[3], alone.solve().attitude(50.0))
     assert clones == Ensemble.from_periods(body, precession, rotation, "short-axis", directions, errors="nan", **options) and clones.epochs == 10.0
-    with pytest.raises(TypeError, match="member 7 has no scene"):
-        pickle.dumps(clones)
     one = Ensemble.from_periods([body], precession[:1], rotation[:1], "short-axis", directions[:1], span=None, **options)
     np.testing.assert_array_equal(one.attitude(50.0)[0], clones.attitude(50.0)[0])
     with pytest.raises(andoyer.InputError, match="precession has 20 members and rotation 1"):
@@ -135,6 +133,43 @@ def test_clones_have_the_periods_asked_for_and_those_that_no_body_can_have_are_c
         Ensemble.from_periods(body, precession, rotation[:3])
     with pytest.raises(TypeError, match="order is not an option"):
         Ensemble.from_periods(body, precession, 263.0, order=3)
+
+
+@pytest.mark.parametrize("dated", [False, True])
+@pytest.mark.parametrize("place", [0, 3])
+def test_refused_members_are_pickled_with_their_errors(place, dated):
+    epoch, seconds = 10.0, 1.0
+    if dated:
+        epoch, seconds = pytest.importorskip("astropy.time").Time("2026-01-01", scale="tdb"), pytest.importorskip("astropy.units").s
+    rotation = np.full(5, 263.0) + np.arange(5)
+    rotation[place] = 1.0  # shorter than this body's shape allows
+    options = {"errors": "nan", "epoch": epoch, "orbit": Orbit(1e-3, 0.1), "span": (epoch, epoch + 9.0 * seconds), "tolerance": 1e-6}
+    clones = Ensemble.from_periods(Body([1.0, 3.0836, 3.235]), 27.38, rotation, phases=(0.1, 0.2), **options)
+    copy = pickle.loads(pickle.dumps(clones))
+    assert copy == clones and pickle.loads(pickle.dumps(copy)) == clones and copy[1:] == clones[1:]
+    assert list(copy.errors) == list(clones.errors) == [place]
+    error, same = clones.errors[place], copy.errors[place]
+    assert (type(same), str(same), same.argument, same.value, same.bound, same.index) == (
+        type(error),
+        str(error),
+        error.argument,
+        error.value,
+        error.bound,
+        error.index,
+    )
+    times = epoch + np.array([0.0, 5.0]) * seconds
+    for kept, given in ((copy.attitude(times), clones.attitude(times)), (copy.angular_velocity(times), clones.angular_velocity(times))):
+        assert kept.tobytes() == given.tobytes() and np.isnan(given[place]).all()
+
+
+def test_an_error_in_the_place_of_a_scene_is_that_of_the_member():
+    scene = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1])
+    problem = andoyer.TheoryError("no motion")
+    assert list(Ensemble.from_scenes([scene, problem], errors="nan").errors) == [1]
+    with pytest.raises(andoyer.TheoryError, match="member 1: no motion"):
+        Ensemble.from_scenes([scene, problem])
+    with pytest.raises(TypeError, match="no member has a scene"):
+        pickle.dumps(Ensemble.from_scenes([problem], errors="nan"))
 
 
 def test_a_distribution_has_the_free_motion_of_each_state_then():

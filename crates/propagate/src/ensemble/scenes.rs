@@ -113,6 +113,15 @@ impl Ensemble {
     }
 }
 
+/// Whether two members have the same scene, or were refused with the same sentence: a value in an error need not be a number.
+fn same_member(one: &Result<Scene, Error>, other: &Result<Scene, Error>) -> bool {
+    match (one, other) {
+        (Ok(one), Ok(other)) => one == other,
+        (Err(one), Err(other)) => (one.kind(), one.to_string()) == (other.kind(), other.to_string()),
+        _ => false,
+    }
+}
+
 /// Ensembles of scenes are equal if these are: columns of members that were refused are not numbers.
 impl PartialEq for Ensemble {
     fn eq(&self, other: &Self) -> bool {
@@ -124,7 +133,8 @@ impl PartialEq for Ensemble {
         };
         self.on_error == other.on_error
             && self.options == other.options
-            && self.scenes == other.scenes
+            && self.scenes.len() == other.scenes.len()
+            && self.scenes.iter().zip(&other.scenes).all(|(one, other)| same_member(one, other))
             && (!self.scenes.is_empty() || same_columns())
     }
 }

@@ -80,21 +80,32 @@ fn not_an_orbit(name: &str, value: &Bound<'_, PyAny>, or: &str) -> PyErr {
 
 type SceneOrError = Result<andoyer_propagate::Scene, andoyer_propagate::Error>;
 
-/// The scenes of `Ensemble.from_scenes`, and their calendar epochs.
+/// The scenes of `Ensemble.from_scenes` or the errors in their places, and the calendar epochs: none, one of all, or one of each.
 pub(super) fn scenes_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<SceneOrError>, Vec<Calendar>)> {
     let refused = |name: &str, value: &Bound<'_, PyAny>| {
         PyTypeError::new_err(format!("{name} must be an andoyer.Scene, not {}", kind(value)))
     };
-    let (mut scenes, mut calendar) = (Vec::new(), Vec::new());
+    let (mut scenes, mut calendar, mut first) = (Vec::new(), Vec::new(), None);
     for (index, member) in value.try_iter().map_err(|_| refused("scenes", value))?.enumerate() {
         let member = member?;
+        if member.is_instance_of::<error::Error>() {
+            scenes.push(Err(error::stated(&member)?));
+            calendar.push(None);
+            continue;
+        }
         let scene = member.cast::<Scene>().map_err(|_| refused(&format!("scenes[{index}]"), &member))?.get();
-        calendar.extend(scene.calendar);
-        scenes.push(Ok(scene.scene.clone()));
-        if !calendar.is_empty() && calendar.len() < scenes.len() {
+        if first.get_or_insert(scene.calendar).is_some() != scene.calendar.is_some() {
             let text = format!("scenes[{index}] and another one: one has a calendar epoch, the other a number");
             return Err(error::input("scenes", index, "epochs of one kind", text));
         }
+        scenes.push(Ok(scene.scene.clone()));
+        calendar.push(scene.calendar);
+    }
+    let Some(first) = first.flatten() else { return Ok((scenes, Vec::new())) };
+    // A member without a scene has the epoch of the first that has one.
+    let mut calendar: Vec<Calendar> = calendar.into_iter().map(|epoch| epoch.unwrap_or(first)).collect();
+    if calendar.iter().all(|epoch| *epoch == first) {
+        calendar.truncate(1);
     }
     Ok((scenes, calendar))
 }

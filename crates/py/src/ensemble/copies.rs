@@ -16,6 +16,7 @@ use crate::error;
 use crate::foreign;
 use crate::motion::Motion;
 use crate::scene::arguments::disturbing_body;
+use crate::scene_class::Scene;
 
 impl Ensemble {
     /// The members of a slice.
@@ -69,18 +70,22 @@ impl Ensemble {
             let new = py.import("copyreg")?.getattr("__newobj_ex__")?;
             return Ok((new, (class, arrays, keywords).into_pyobject(py)?));
         }
-        if let Some(index) = self.0.asked_scenes().iter().position(Result::is_err) {
-            let text = format!(
-                "member {index} has no scene, so the ensemble cannot be pickled: make one of those in Ensemble.scenes"
-            );
-            return Err(PyTypeError::new_err(text));
+        if !self.0.asked_scenes().iter().any(Result::is_ok) {
+            return Err(PyTypeError::new_err("no member has a scene, so the ensemble cannot be pickled"));
         }
+        let member = |(index, scene): (usize, &Result<andoyer_propagate::Scene, Propagation>)| match scene {
+            Ok(scene) => {
+                Bound::new(py, Scene { calendar: self.calendar(index), ..scene.clone().into() }).map(Bound::into_any)
+            }
+            Err(problem) => Ok(error::propagation(problem.clone()).into_value(py).into_bound(py).into_any()),
+        };
+        let scenes = self.0.asked_scenes().iter().enumerate().map(member).collect::<PyResult<Vec<_>>>()?;
         let keywords = PyDict::new(py);
         keywords.set_item("errors", self.0.asked_on_error().to_string())?;
         keywords.set_item("threads", self.threads())?;
         let of_scenes = (class.getattr("from_scenes")?,);
         let new = py.import("functools")?.getattr("partial")?.call(of_scenes, Some(&keywords))?;
-        Ok((new, (self.scenes(py)?,).into_pyobject(py)?))
+        Ok((new, (scenes,).into_pyobject(py)?))
     }
 
     /// Positional and keyword arguments of the constructor.

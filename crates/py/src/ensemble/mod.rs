@@ -105,7 +105,7 @@ impl Ensemble {
     /// Parameters
     /// ----------
     /// scenes : sequence of Scene
-    ///     The epochs must be all numbers or all calendar times.
+    ///     The epochs must be all numbers or all calendar times. An `Error` in the place of a scene is that of a member without one.
     /// threads : int, optional
     ///     Number of threads, 1 to 1024; by default one for each core.
     /// errors : {"raise", "nan"}, optional
@@ -116,7 +116,7 @@ impl Ensemble {
     /// InputError
     ///     Calendar epochs beside numbers; an unknown `errors`; threads outside 1 to 1024.
     /// TypeError
-    ///     A member that is not a `Scene`.
+    ///     A member that is not a `Scene` or an `Error`.
     ///
     /// Examples
     /// --------
