@@ -9,15 +9,16 @@ from andoyer import Body, Scene
 
 pytest.importorskip("scipy")
 from andoyer import fit
-from andoyer.fit import _observed, _other_shape, _verdict
+from andoyer.fit import _light_curve, _observed, _other_shape, _verdict
 from andoyer.fit._curve import States
+from andoyer.fit._search import Population
 
 AXES = np.array([1.0, 0.7, 0.5])
 SUN, OBSERVER = np.array([1.0, 0.3, 0.1]), np.array([0.8, -0.3, 0.05])
 
 
-def evidence(rates, noise, harmonic=None, tumbling=1.0):
-    """Of three nights of 40 magnitudes, with a harmonic [mag] of the times: the simple rotation next to the truth, and a tumbling motion with a part of its χ²."""
+def observed(rates, noise, harmonic=None):
+    """Three nights of 40 magnitudes, with a harmonic [mag] of the times: the true scene, times [h], nights, magnitudes, and the fit of simple rotation next to the truth."""
     generator = np.random.default_rng(7)
     scene = Scene(Body.ellipsoid(*AXES), [0.1, -0.5, 0.3, np.sqrt(0.65)], rates)
     times = np.concatenate([24.0 * night + np.sort(generator.uniform(0, 6, 40)) for night in range(3)])
@@ -27,10 +28,19 @@ def evidence(rates, noise, harmonic=None, tumbling=1.0):
     if harmonic is not None:
         magnitudes += harmonic(times)
     given = {"magnitudes": magnitudes, "sigma": noise, "sun": SUN, "observer": OBSERVER, "curves": nights, "scene": scene}
-    simple = fit.light_curve(AXES, times, mode="principal-axis", **given)
+    return scene, times, nights, magnitudes, fit.light_curve(AXES, times, mode="principal-axis", **given)
+
+
+def states_of(optimum):
+    return States(AXES[None], np.array(optimum.scene.attitude)[None], np.array(optimum.scene.angular_velocity)[None])
+
+
+def evidence(rates, noise, harmonic=None, tumbling=1.0):
+    """Of these nights: the simple rotation next to the truth, and a tumbling motion with a part of its χ²."""
+    scene, times, nights, magnitudes, simple = observed(rates, noise, harmonic)
     curve = _observed.data_of((times, None), (None, magnitudes, noise), (SUN, OBSERVER), nights, None).curve
     optimum = simple.optima[0]
-    states = States(AXES[None], np.array(optimum.scene.attitude)[None], np.array(optimum.scene.angular_velocity)[None])
+    states = states_of(optimum)
     means = curve.members @ (curve.members.T @ curve.brightness / curve.members.sum(axis=0))
     constant = float(np.sum(curve.weights * (curve.brightness - means) ** 2))
     return _verdict.Evidence(
@@ -61,6 +71,17 @@ def test_the_period_of_a_rotator_of_another_shape_is_secure():
     assert known.simple[0].chi_square > 2000 and _verdict.simple_rotation(known).probability < 1e-3
     assert verdict.simple and verdict.periods == "secure" and verdict.mode != "secure" and "leaves no wobble above" in str(verdict)
     assert known.simple[0].periods.precession == pytest.approx(2 * np.pi / 1.1, rel=2e-3)
+
+
+def test_the_verdict_of_a_fit_has_the_series_beside_its_simple_rotation():
+    _, times, nights, magnitudes, simple = observed([0, 0, 1.1], 0.003, third)
+    data = _observed.data_of((times, None), (None, magnitudes, 0.003), (SUN, OBSERVER), nights, None)
+    states = states_of(simple.optima[0])
+    spun = replace(data, curve=replace(data.curve, spin=2))
+    alone = _light_curve.Found(Population(states, np.array([simple.chi_square])), 5)
+    tumbling = _light_curve.Found(Population(states._replace(rates=states.rates + 1e-3), np.array([0.5 * simple.chi_square])), 5)
+    verdict = _light_curve._result(data, tumbling, _light_curve.Hypothesis(spun, alone, np.inf), np.inf, False).verdict
+    assert verdict.simple and verdict.periods == "secure" and "leaves no wobble above" in str(verdict)
 
 
 def test_another_frequency_is_a_wobble():

@@ -51,7 +51,7 @@ def test_the_tables_of_the_page_of_speed_are_those_of_the_files(monkeypatch):
     import report
 
     page = (REPOSITORY / "docs/speed.md").read_text(encoding="utf-8")
-    assert report.against_rivals() in page
+    assert report.rivals_table(report.against_rivals()) in page
     assert report.at_equal_error(report.read("work-precision")) in page
     assert report.by_task(report.read("bench")) in (REPOSITORY / "benches/README.md").read_text(encoding="utf-8")
 

@@ -97,7 +97,8 @@ def clones(
         phases = np.stack([drawn[name] for name in PHASES], axis=1)
     return Ensemble.from_periods(
         _bodies(body, drawn),
-        *(drawn[name] for name in PERIODS),
+        drawn[PERIODS[0]],
+        drawn[PERIODS[1]],
         mode,
         directions,
         phases=phases,
