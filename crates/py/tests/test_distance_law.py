@@ -90,7 +90,8 @@ def test_a_law_is_integrated():
 def test_tables_and_hyperbolas_have_laws():
     alone = drift(Torque.constant([1e-7, 2e-7, 3e-7]), "spin")
     times = np.linspace(0, 2 * np.pi / 2e-7, 400)
-    table = TabulatedOrbit(times, np.array([ORBIT.position(time) for time in times]), 1.0)
+    gm = ORBIT.mean_motion**2 * ORBIT.semi_major_axis**3
+    table = TabulatedOrbit(times, np.array([ORBIT.position(time) for time in times]), gm)
     hyperbola = Orbit.from_state([0, 1.3, 0], [-1.3e-6, 0, 0], 1e-12, 0.0)
     assert hyperbola.eccentricity > 1
     for source, epochs in ((table, [0.0, 1e6, 1.2e7]), (hyperbola, [0.0, 1e6, 1e7])):
