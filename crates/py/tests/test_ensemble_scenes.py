@@ -158,8 +158,9 @@ def test_refused_members_are_pickled_with_their_errors(place, dated):
         error.index,
     )
     times = epoch + np.array([0.0, 5.0]) * seconds
-    for kept, given in ((copy.attitude(times), clones.attitude(times)), (copy.angular_velocity(times), clones.angular_velocity(times))):
-        assert kept.tobytes() == given.tobytes() and np.isnan(given[place]).all()
+    kept, given = copy.at(times), clones.at(times)
+    for name in ("attitude", "angular_velocity"):
+        assert getattr(kept, name).tobytes() == getattr(given, name).tobytes() and np.isnan(getattr(given, name)[place]).all()
 
 
 def test_an_error_in_the_place_of_a_scene_is_that_of_the_member():
