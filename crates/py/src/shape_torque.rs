@@ -207,7 +207,6 @@ impl Torque {
         signature = (table, *, source, at=None, power=None, law=None, degree=None),
         text_signature = "(table, *, source, at=None, power=2.0, law=None, degree=8)"
     )]
-    #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn sphere(
         class: &Bound<'_, PyType>,
         table: &Bound<'_, PyAny>,

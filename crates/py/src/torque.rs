@@ -176,7 +176,6 @@ impl Torque {
 
     #[classmethod]
     #[pyo3(signature = (texts, sources, distance_powers, reference_distances, truncation=0.0, laws=HashMap::new()))]
-    #[expect(clippy::too_many_arguments, reason = "the parts of a pickled torque")]
     fn _polynomial(
         _class: &Bound<'_, PyType>,
         texts: &Bound<'_, PyAny>,

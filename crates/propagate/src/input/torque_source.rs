@@ -49,7 +49,7 @@ impl TorqueSource {
     }
 
     /// Multiplies the torque by (r₀/r)^power. For an orbit without a semi-major axis r₀ is in semi-major axes, by default 1. For an orbit with one, and for a table,
-    /// it is in their unit of length and has no default: [`Torque::polynomial`] refuses `None`.
+    /// it is in their unit of length and has no default: [`Torque::polynomial`](crate::torques::Torque::polynomial) refuses `None`.
     #[must_use]
     pub fn falling(self, power: f64, reference_distance: impl Into<Option<f64>>) -> Self {
         let default = (!self.has_length()).then_some(1.0);
