@@ -9,7 +9,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves verdicts libration-cost libration-reach evolution-times nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-ephemeris rivals-messages gravity docs docs-test package release release-check wheel clean kernels playground playground-test
+.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves verdicts pulls libration-cost libration-reach evolution-times nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-ephemeris rivals-messages gravity docs docs-test package release release-check wheel clean kernels playground playground-test
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -107,6 +107,9 @@ libration-reach: $(VENV)/installed  ## the share of random locked scenes that ar
 	cargo build --release --quiet --package andoyer-tests --features programs --bin libration
 	target/release/libration reach 300 1 > docs/data/libration-reach.csv
 	$(BIN)/python benches/libration_reach.py
+
+pulls: $(VENV)/installed  ## pulls of 200 fits of light curves in magnitudes: docs/data/pulls.csv; a quarter of an hour
+	$(BIN)/python tests/stress/pulls.py --out docs/data/pulls.csv
 
 evolution-times: $(VENV)/installed  ## averages over years beside integrations: docs/data/evolution-times.csv; half a minute
 	$(BIN)/python benches/evolution_times.py

@@ -289,6 +289,30 @@ def light_curves() -> list[str]:
     return markdown(rows[0], (row.values() for row in rows))
 
 
+def evolution_times() -> list[str]:
+    """Averages over years, and integrations of a shorter span."""
+    columns = ("scene", "years", "all_rotations", "averages_ms", "evaluation_us", "plan_ms", "rotations", "integration_ms", "ratio")
+    head = [
+        "scene",
+        "years",
+        "rotations",
+        "`evolve` [ms]",
+        "an evaluation [µs]",
+        "`plan` [ms]",
+        "rotations that are integrated",
+        "[ms]",
+        "time by rotation over that of averages",
+    ]
+    return markdown(head, ([row[column] for column in columns] for row in read("evolution-times.csv")))
+
+
+def pulls() -> list[str]:
+    """Pulls of fits to magnitudes, a row a parameter."""
+    rows = read("pulls.csv")
+    head = ["parameter", "mean", "width", "within 1 σ", "within 2 σ", "fits", "of sets"]
+    return markdown(head, ([row[column] for column in ("parameter", "mean", "width", "within 1", "within 2", "fits", "sets")] for row in rows))
+
+
 def verdicts() -> list[str]:
     """How often the verdicts on simulated light curves are right, by quantity and class."""
     rows = [row for row in read("verdicts.csv") if row["error"] == "–"]
@@ -400,6 +424,7 @@ def verified() -> list[str]:
 TABLES: dict[str, Callable[[], list[str]]] = {
     "averaged-bodies": averaged_bodies,
     "ensemble": ensemble,
+    "evolution-times": evolution_times,
     "front": front,
     "gravity-bounds": gravity_bounds,
     "gravity-cases": gravity_cases,
@@ -424,6 +449,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "sweep-accuracy": sweep_accuracy,
     "sweep-speed": sweep_speed,
     "verified": verified,
+    "pulls": pulls,
     "verdicts": verdicts,
 }
 
