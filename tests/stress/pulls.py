@@ -45,7 +45,7 @@ def pulls(seed):
     axes, scene, zero, times, seen = simulated(seed)
     found = fit.light_curve(axes, times, scene=scene, shape=True, **seen)
     deviations = np.sqrt(np.diag(found.covariance))
-    sizes = np.concatenate([np.ones(3), np.full(3, np.linalg.norm(scene.angular_velocity)), np.ones(2)])
+    sizes = np.concatenate([np.ones(3), np.full(3, np.linalg.norm(found.scene.angular_velocity)), np.ones(2)])
     if len(found.undetermined) or np.max(deviations / sizes) > LOOSE:
         return None
     turn = (scene.solve().rotation(scene.epoch).inv() * found.scene.solve().rotation(found.scene.epoch)).as_rotvec()
