@@ -108,6 +108,7 @@ def compared(regime: str, seed: int, count: int, tolerance: float) -> tuple[Arra
         bounds, others = (np.array([plan.error_bound for plan in each.plans]) for each in (tested, reference))
         known = (bounds < HALF_TURN) & (others < HALF_TURN)
         unknown += int(np.sum(~known))
+        assert np.isfinite(errors[known]).all(), f"{regime}: a member of a known attitude is not finite"
         counted = known & (errors > np.maximum(others, CLEAR))
         ratios.append(bounds[counted] / errors[counted])
     return np.concatenate(ratios), unknown

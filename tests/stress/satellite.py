@@ -116,7 +116,7 @@ def main() -> None:
     print(f"{rotations} rotations, {evolution.end.reason}; the momentum changes by {change:.2f} of its size, what the steps leave out {steps:.1e}")
     print(f"at the end: momentum {errors[-1]:.1e}, excess over that of the separatrix {of_excess[-1]:.1e}; largest {errors.max():.1e}, {of_excess.max():.1e}")
     print(f"truncation {torque.truncation:.3f}; integration {taken:.0f} s, averages {1e3 * averaged:.0f} ms")
-    sys.exit(bool(max(errors.max(), of_excess.max()) > LIMIT))
+    sys.exit(bool(max(errors.max(), of_excess.max()) > LIMIT or evolution.end.reason != "span" or 10 * steps > LIMIT))
 
 
 if __name__ == "__main__":

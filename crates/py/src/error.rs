@@ -81,20 +81,23 @@ pub(crate) fn propagation(error: Propagation) -> PyErr {
     }
 }
 
-/// The error of propagation that an exception states.
+/// The error of propagation that an exception states; of a member without the words that name it. Attributes that are not those of an error are left out.
 pub(crate) fn stated(exception: &Bound<'_, PyAny>) -> PyResult<Propagation> {
     let kinds = [
-        (exception.is_instance_of::<InputError>(), Kind::Input),
+        (exception.is_instance_of::<InternalError>(), Kind::Internal),
         (exception.is_instance_of::<FileError>(), Kind::File),
         (exception.is_instance_of::<RepresentationError>(), Kind::Representation),
         (exception.is_instance_of::<TheoryError>(), Kind::Theory),
     ];
+    let message = exception.str()?.to_string_lossy().into_owned();
+    let index = exception.getattr_opt("index")?.and_then(|index| index.extract::<usize>().ok());
+    let message = index.and_then(|index| message.strip_prefix(&format!("member {index}: "))).unwrap_or(&message);
     Ok(Propagation::Stated {
-        kind: kinds.into_iter().find(|(is, _)| *is).map_or(Kind::Internal, |(_, kind)| kind),
-        argument: exception.getattr("argument")?.extract()?,
+        kind: kinds.into_iter().find(|(is, _)| *is).map_or(Kind::Input, |(_, kind)| kind),
+        argument: exception.getattr("argument")?.extract().ok(),
         value: fact(exception, "value")?,
         bound: fact(exception, "bound")?,
-        message: exception.str()?.extract()?,
+        message: message.to_owned(),
     })
 }
 
@@ -185,20 +188,21 @@ impl<'py> IntoPyObject<'py> for Fact {
 /// The value of an attribute of an exception.
 fn fact(exception: &Bound<'_, PyAny>, name: &str) -> PyResult<Option<Box<Value>>> {
     let given = exception.getattr(name)?;
-    let value = if given.is_none() {
+    if given.is_none() {
         return Ok(None);
-    } else if given.is_instance_of::<PyString>() {
-        Value::Text(given.extract()?)
-    } else if given.is_instance_of::<PyFloat>() {
-        Value::Number(given.extract()?)
+    }
+    let value = if given.is_instance_of::<PyFloat>() {
+        given.extract().ok().map(Value::Number)
     } else if given.is_instance_of::<PyInt>() {
-        Value::Integer(given.extract()?)
-    } else if let Ok(integers) = given.extract() {
-        Value::Integers(integers)
-    } else if let Ok(numbers) = given.extract() {
-        Value::Numbers(numbers)
+        given.extract().ok().map(Value::Integer)
+    } else if given.is_instance_of::<PyString>() {
+        None
     } else {
-        Value::Text(given.str()?.extract()?)
+        given.extract().map(Value::Integers).or_else(|_| given.extract().map(Value::Numbers)).ok()
+    };
+    let value = match value {
+        Some(value) => value,
+        None => Value::Text(given.str()?.to_string_lossy().into_owned()),
     };
     Ok(Some(Box::new(value)))
 }

@@ -177,6 +177,7 @@ impl Scene {
         if let Some(direction) = momentum_direction {
             periods = match array::two_or_three("momentum_direction", direction)? {
                 TwoOrThree::Two([longitude, latitude]) => {
+                    error::warn_of_degrees(class.py(), [("momentum_direction[0]", longitude)])?;
                     periods.towards(longitude, latitude).map_err(error::propagation)?
                 }
                 TwoOrThree::Three(vector) => ObservedPeriods { momentum_direction: vector.into(), ..periods },

@@ -69,6 +69,8 @@ def test_draws_that_no_body_can_have_are_refused_as_a_whole_and_counted():
         ({"published": {"precession": 27.0, "period": 3.0}}, "published", "has 'period'"),
         ({"published": {"precession": 27.0, "longitude": 3.0}}, "published", "no 'rotation'"),
         ({"published": {"precession": 27.0, "rotation": 265.0, "latitude": 0.1}}, "published", "no 'longitude'"),
+        ({"published": {"precession": [1.0, 2.0], "rotation": [2.0, 3.0]}}, "published", "not a number"),
+        ({"published": {"precession": 27.0, "rotation": 265.0, "longitude": 1.0, "latitude": -59.0}, "covariance": np.eye(4)}, "published", "latitude = -59"),
         ({"n": -1}, "n", "0 or more"),
         ({"rng": "seed"}, "rng", "Generator"),
     ],
@@ -87,3 +89,12 @@ def test_a_pole_is_given_once_and_moments_are_about_principal_axes():
     with pytest.raises(InputError, match="axes of its own") as caught:
         fit.clones(turned, PUBLISHED, covariance(), 3)
     assert caught.value.argument == "body"
+
+
+def test_degrees_are_doubted_and_other_types_are_refused():
+    published = {"precession": 27.45, "rotation": 265.7, "longitude": 246.0, "latitude": -1.0}
+    with pytest.warns(UserWarning, match="published longitude = 246 is more than a whole turn"):
+        fit.clones(BODY, published, np.eye(4), 1, rng=1)
+    for change in ({"body": [1, 2, 2.5]}, {"published": None}, {"errors": "raise"}):
+        with pytest.raises(TypeError, match=next(iter(change))):
+            fit.clones(**{"body": BODY, "published": published, "covariance": np.eye(4), "n": 1} | change)

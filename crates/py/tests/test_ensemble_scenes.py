@@ -169,8 +169,21 @@ def test_an_error_in_the_place_of_a_scene_is_that_of_the_member():
     assert list(Ensemble.from_scenes([scene, problem], errors="nan").errors) == [1]
     with pytest.raises(andoyer.TheoryError, match="member 1: no motion"):
         Ensemble.from_scenes([scene, problem])
-    with pytest.raises(TypeError, match="no member has a scene"):
-        pickle.dumps(Ensemble.from_scenes([problem], errors="nan"))
+    alone = Ensemble.from_scenes([problem, problem], errors="nan")
+    assert pickle.loads(pickle.dumps(alone)) == alone and np.isnan(alone.attitude(0.0)).all()
+    # The error of a member has its number once, and attributes that are none are left out.
+    of_member = alone.errors[1]
+    of_member.argument, of_member.value = 5, 10**40
+    again = Ensemble.from_scenes([scene, scene, of_member], errors="nan").errors[2]
+    assert (str(again), again.argument, again.value, again.index) == ("member 2: no motion", None, str(10**40), 2)
+
+
+def test_columns_refuse_a_body_with_a_gravity_field():
+    body = Body([0.729, 0.947, 1.0], gravity=andoyer.Gravity({"C30": 1e-3}, 1.0, inertia_factor=0.4))
+    with pytest.raises(andoyer.InputError, match=r"bodies has a gravity field.*from_scenes"):
+        Ensemble.from_periods(body, [27.45, 27.5], 265.7)
+    with pytest.raises(andoyer.InputError, match=r"bodies\[1\] has a gravity field"):
+        Ensemble(None, [0, 0, 0, 1], [0.1, 0.2, 1], bodies=[Body([1, 1.5, 2]), body])
 
 
 def test_a_distribution_has_the_free_motion_of_each_state_then():

@@ -19,7 +19,8 @@ const TOLERANCE: f64 = 1e-6;
 const ROUNDING: f64 = 1e-14;
 /// Half the interval of x is at least this, over its middle: a circle has one distance.
 const NARROW: f64 = 0.01;
-/// Part by which a position between two rows of a table may be nearer or farther than those that are looked at.
+/// Places between two rows of a table that are looked at, and the part by which another one may be nearer or farther.
+const PLACES_OF_TABLE: usize = 16;
 const OF_TABLE: f64 = 0.02;
 
 /// The distances of a source at which a law must be known.
@@ -88,11 +89,15 @@ impl DistanceRule {
         if values.len() != distances.len() {
             return Err(Error::Length { argument: "law", found: values.len(), expected: distances.len() });
         }
-        let reference = values[values.len() - 1];
+        let (reference, at) = (values[values.len() - 1], distances[distances.len() - 1]);
+        if !(reference > 0.0 && reference.is_finite()) {
+            let bound = format!("positive and finite at the distance of the torque, {at}");
+            return Err(torque_refused("law", reference, &bound));
+        }
         for (value, distance) in values.iter().zip(&distances) {
             if !(*value >= 0.0 && (value / reference).is_finite()) {
                 let bound = format!(
-                    "finite and at least 0, and above 0 at the distance of the torque, at the distance {distance}"
+                    "at least 0 and finite, over its value at the distance of the torque too, at the distance {distance}"
                 );
                 return Err(torque_refused("law", value, &bound));
             }
@@ -142,14 +147,17 @@ fn of_orbit(orbit: &Orbit) -> [f64; 2] {
     [size * (1.0 - e).abs(), farthest]
 }
 
-/// Those of the rows of a table and of the places halfway between them, with a margin.
+/// Those of the rows of a table and of places between them, with a margin.
 fn of_table(table: &TabulatedOrbit) -> Result<[f64; 2], Error> {
-    let halfway = table.times().windows(2).map(|pair| table.position(0.5 * (pair[0] + pair[1])));
     let mut ends = [f64::INFINITY, 0.0_f64];
-    for place in table.positions().iter().map(|place| Ok(*place)).chain(halfway) {
-        let [x, y, z] = place?;
-        let distance = x.hypot(y).hypot(z);
-        ends = [ends[0].min(distance), ends[1].max(distance)];
+    for pair in table.times().windows(2) {
+        for k in 0..PLACES_OF_TABLE {
+            let [x, y, z] = table.position((pair[1] - pair[0]).mul_add(k as f64 / PLACES_OF_TABLE as f64, pair[0]))?;
+            let distance = x.hypot(y).hypot(z);
+            ends = [ends[0].min(distance), ends[1].max(distance)];
+        }
     }
-    Ok([ends[0] * (1.0 - OF_TABLE), ends[1] * (1.0 + OF_TABLE)])
+    let [x, y, z] = table.positions()[table.positions().len() - 1];
+    let last = x.hypot(y).hypot(z);
+    Ok([ends[0].min(last) * (1.0 - OF_TABLE), ends[1].max(last) * (1.0 + OF_TABLE)])
 }

@@ -5,6 +5,7 @@ use super::equations::{Rates, Scratch};
 use crate::error::Error;
 use crate::input::options::Averaging;
 use crate::input::scene::Scene;
+use crate::integration::rates::of_interpolation;
 
 /// Mean rates of a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +55,9 @@ impl Scene {
     /// # Errors
     /// As [`Scene::evolve`].
     pub fn drift(&self, average: Averaging) -> Result<Drift, Error> {
-        AveragedScene::new(self, average)?.drift()
+        let averaged = AveragedScene::new(self, average)?;
+        let epoch = self.state().epoch;
+        of_interpolation(self, (epoch, epoch))?;
+        averaged.drift()
     }
 }

@@ -14,6 +14,7 @@ use super::window::second_order;
 use crate::error::Error;
 use crate::input::options::Averaging;
 use crate::input::scene::Scene;
+use crate::integration::rates::of_interpolation;
 use crate::simd::halt::GOING;
 
 /// The averaged motion of a scene over a span. It has no attitude and no phases: after times of 1/ε rotations they are unknown.
@@ -337,7 +338,7 @@ impl Scene {
     /// - Those of [`Scene::validate`]; [`Error::NoSpan`]; [`Error::Span`] for (1, 0) and for times that are not finite; [`Error::Tolerance`].
     /// - [`Error::NotAveraged`] for a torque that is not weak against the rotation and the wobble, an orbit that is not slow, the separatrix, a sphere, a body at rest.
     /// - [`Error::Torque`] for rotors, and for a polynomial with the directions or distances of two sources in one term.
-    /// - [`Error::Table`], [`Error::TooManySteps`], [`Error::Stopped`].
+    /// - [`Error::Table`] also for a table whose rows leave the distance unknown, [`Error::TooManySteps`], [`Error::Stopped`].
     pub fn evolve(&self, options: EvolveOptions<'_>) -> Result<Evolution, Error> {
         let epoch = self.state().epoch;
         let Some((start, stop)) = options.span.or(self.asked_span()) else {
@@ -355,6 +356,7 @@ impl Scene {
             return Err(Error::Number { argument: "members", index: None, value, bound });
         }
         let problem = AveragedScene::new(self, options.average)?;
+        of_interpolation(self, (start.min(epoch), stop.max(epoch)))?;
         let unit = problem.momentum.norm();
         let (momentum, excess) = problem.mean()?;
         let (equations, longest) = (&problem.equations, problem.longest_step());

@@ -54,6 +54,19 @@ impl DistanceLaw {
         [2.0 / width, -(nearest + farthest) / width]
     }
 
+    /// Whether x is where the series holds.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] outside.
+    pub(crate) fn within(&self, x: f64) -> Result<(), Error> {
+        let [farthest, nearest] = self.between;
+        if (farthest..=nearest).contains(&x) {
+            return Ok(());
+        }
+        let bound = format!("known at r0/r = {x:e}, which is outside {farthest:e} to {nearest:e}");
+        Err(torque_refused("law", "a law of the distance", &bound))
+    }
+
     /// The value at x, by Clenshaw's recurrence.
     pub(crate) fn value(&self, x: f64) -> f64 {
         let [a, b] = self.argument();

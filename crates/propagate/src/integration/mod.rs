@@ -25,7 +25,7 @@ mod linear;
 mod path_series;
 mod products;
 pub(crate) mod prospect;
-mod rates;
+pub(crate) mod rates;
 mod series;
 pub(crate) mod several;
 mod step_errors;

@@ -67,7 +67,7 @@ pub(super) fn rates_of_sources(scene: &Scene, span: (f64, f64)) -> Result<[f64; 
 /// # Errors
 /// [`Error::Table`] for y above [`FINE`]. Polynomials that pass a pericentre far outside agree on a torque that is too weak: of 1,000 tables of ellipses with 8 to 200 rows an
 /// orbit 26 had errors of up to 3,000 times the bound, all with y above 0.9.
-pub(super) fn of_interpolation(scene: &Scene, span: (f64, f64)) -> Result<f64, Error> {
+pub(crate) fn of_interpolation(scene: &Scene, span: (f64, f64)) -> Result<f64, Error> {
     let Some((table, (interval, departure))) = coarsest(scene, span) else { return Ok(OF_INTERPOLATION) };
     let error = OF_INTERPOLATION * departure;
     if error < FINE {

@@ -58,6 +58,7 @@ impl Bodies {
             PyTypeError::new_err(format!("{name} must be an andoyer.Body, not {}", kind(value)))
         };
         if let Some(body) = one(value) {
+            without_gravity("bodies", &body)?;
             return Ok(match body.has_tensor() {
                 true => Self::Tensors(MemberRows::One(body.inertia())),
                 false => Self::Moments(MemberRows::One(body.moments())),
@@ -65,7 +66,10 @@ impl Bodies {
         }
         let member = |(index, member): (usize, PyResult<Bound<'_, PyAny>>)| {
             let member = member?;
-            one(&member).ok_or_else(|| refused(&format!("bodies[{index}]"), &member))
+            let name = format!("bodies[{index}]");
+            let body = one(&member).ok_or_else(|| refused(&name, &member))?;
+            without_gravity(&name, &body)?;
+            Ok(body)
         };
         let members = value.try_iter().map_err(|_| refused("bodies", value))?;
         let bodies: Vec<_> = members.enumerate().map(member).collect::<PyResult<_>>()?;
@@ -124,4 +128,15 @@ impl Bodies {
             }
         }
     }
+}
+
+/// Columns hold moments or tensors alone.
+fn without_gravity(name: &str, body: &andoyer_propagate::Body) -> PyResult<()> {
+    if body.gravity().is_none() {
+        return Ok(());
+    }
+    let text = format!(
+        "{name} has a gravity field, which columns of members do not hold: make scenes, and Ensemble.from_scenes of them"
+    );
+    Err(error::input(name, "gravity", "no gravity field", text))
 }

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use andoyer_propagate::Error as Propagation;
 use andoyer_propagate::disturbers::DisturbingBody;
 use andoyer_propagate::options::Method;
-use pyo3::exceptions::{PyIndexError, PyTypeError};
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice, PyTuple};
 
@@ -69,9 +69,6 @@ impl Ensemble {
             let (arrays, keywords) = self.arguments(py)?;
             let new = py.import("copyreg")?.getattr("__newobj_ex__")?;
             return Ok((new, (class, arrays, keywords).into_pyobject(py)?));
-        }
-        if !self.0.asked_scenes().iter().any(Result::is_ok) {
-            return Err(PyTypeError::new_err("no member has a scene, so the ensemble cannot be pickled"));
         }
         let member = |(index, scene): (usize, &Result<andoyer_propagate::Scene, Propagation>)| match scene {
             Ok(scene) => {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from typing import Any, Literal
 
@@ -45,7 +46,7 @@ def clones(
     body : Body
         Its moments are those of all members, but for those in `published`.
     published : dict
-        Values by name. "precession" and "rotation" are P_φ and P_ψ, in units of time; both are needed. "longitude" and "latitude" are those of the angular momentum, in rad; a latitude beyond
+        Values by name. "precession" and "rotation" are P_φ and P_ψ, in units of time; both are needed. "longitude" and "latitude" are those of the angular momentum, in rad; a drawn latitude beyond
         a quarter turn is on the other side of the pole. "rotation_phase" and "precession_phase" are the phases at the epoch, in turns; "moment_1", "moment_2" and "moment_3" the moments about
         the body axes.
     covariance : array_like, shape (k, k)
@@ -68,7 +69,9 @@ def clones(
     ------
     InputError
         An unknown name, a missing period, longitude without latitude, a phase without the other; a value that is not finite; a covariance of another shape, not finite, not symmetric or not
-        positive definite; an `n` below 0; a pole or phases given twice; moments of a body with axes of its own.
+        positive definite; a latitude beyond π/2; an `n` below 0; a pole or phases given twice; moments of a body with axes of its own; a body with a gravity field.
+    TypeError
+        A `body` that is not a Body, a `published` that is not a dict, `errors`.
 
     Examples
     --------
@@ -84,9 +87,15 @@ def clones(
     >>> bool(abs(np.corrcoef(periods.precession, periods.rotation)[0, 1] - 0.8) < 0.03)
     True
     """
+    if not isinstance(body, Body):
+        raise TypeError(f"body must be an andoyer.Body, not {type(body).__name__}")
+    if not isinstance(published, Mapping):
+        raise TypeError(f"published must be a dict of values by name, not {type(published).__name__}")
+    if "errors" in options:
+        raise TypeError('errors is "nan" for clones: a draw that no body can have is refused and counted')
     count, generator = whole_number("n", n, 0), generator_of(rng)
     names = _names(published, {"directions": directions, "phases": phases})
-    means = finite("published", [published[name] for name in names])
+    means = _means(published, names)
     matrix = covariances("covariance", covariance, (len(names), len(names)))
     draws = means + generator.standard_normal((count, len(names))) @ np.linalg.cholesky(matrix).T
     drawn = dict(zip(names, draws.T, strict=True))
@@ -108,6 +117,20 @@ def clones(
         errors="nan",
         **options,
     )
+
+
+def _means(published: Mapping[str, float], names: tuple[str, ...]) -> Array:
+    """The published values. A latitude beyond a quarter turn is refused; a longitude or a phase beyond a turn is doubted: both are probably in degrees."""
+    means = finite("published", [published[name] for name in names])
+    if means.shape != (len(names),):
+        raise refusal("published", list(means.shape), "a number by each name", "has a value that is not a number")
+    for name, value in zip(names, means, strict=True):
+        if name == POLE[1] and abs(value) > np.pi / 2:
+            raise refusal("published", float(value), [-np.pi / 2, np.pi / 2], f"latitude = {value:g}: it must be from -π/2 to π/2, in rad")
+        turn, unit = (2 * np.pi, "longitudes are in radians") if name == POLE[0] else (1.0, "phases are in turns")
+        if name in (POLE[0], *PHASES) and abs(value) > turn:
+            warnings.warn(f"published {name} = {value:g} is more than a whole turn: {unit}, not in degrees", stacklevel=3)
+    return means
 
 
 def _names(published: Mapping[str, float], given: Mapping[str, Any]) -> tuple[str, ...]:

@@ -247,7 +247,7 @@ class Fit:
 
     def _candidates(self, best: Fit, count: int, generator: np.random.Generator) -> Candidates:
         """Candidates about this minimum for a part of the draws of the best one, weighted per angular velocity: steps of it are in parts of that of the state."""
-        part = max(min(count, FEWEST), int(np.ceil(count * np.exp(-(self.chi_square - best.chi_square) / 2))))
+        part = max(min(count, FEWEST), int(np.ceil(count * np.exp(-max(0.0, self.chi_square - best.chi_square) / 2))))
         found = candidates(self._model, self.undetermined, part, generator)
         rates = sum(label.startswith("ω") for label in self.parameters)
         return found._replace(logarithms=found.logarithms + rates * np.log(self._steps.rate))
