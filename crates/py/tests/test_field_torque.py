@@ -47,7 +47,7 @@ def rotated(q, v):
     return v + 2 * np.cross(u, np.cross(u, v) + w * v)
 
 
-def integrated(path, torque, start, rates, span):
+def integrated(path, torque, start, rates, span, rtol=1e-12, atol=1e-14):
     moments = np.array(BODY)
 
     def slope(t, y):
@@ -56,7 +56,7 @@ def integrated(path, torque, start, rates, span):
         b = rotated(y[:4] / np.linalg.norm(y[:4]), field_at(path, t))
         return np.concatenate([0.5 * q @ y[4:], (torque(b, y[4:]) - np.cross(y[4:], moments * y[4:])) / moments])
 
-    return solve_ivp(slope, (0, span), np.concatenate([start, rates]), method="DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
+    return solve_ivp(slope, (0, span), np.concatenate([start, rates]), method="DOP853", rtol=rtol, atol=atol).y[:, -1]
 
 
 def difference(found, exact):

@@ -91,14 +91,12 @@ impl DistanceRule {
         }
         let (reference, at) = (values[values.len() - 1], distances[distances.len() - 1]);
         if !(reference > 0.0 && reference.is_finite()) {
-            let bound = format!("positive and finite at the distance of the torque, {at}");
+            let bound = format!("finite and above 0 at the distance of the torque, {at}");
             return Err(torque_refused("law", reference, &bound));
         }
         for (value, distance) in values.iter().zip(&distances) {
             if !(*value >= 0.0 && (value / reference).is_finite()) {
-                let bound = format!(
-                    "at least 0 and finite, over its value at the distance of the torque too, at the distance {distance}"
-                );
+                let bound = format!("finite and at least 0, over its value at {at} too, at the distance {distance}");
                 return Err(torque_refused("law", value, &bound));
             }
         }

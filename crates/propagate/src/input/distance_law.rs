@@ -4,6 +4,8 @@ use crate::error::{Error, torque_refused};
 
 /// Most coefficients of a law.
 pub(crate) const MOST_COEFFICIENTS: usize = 128;
+/// Part of the interval by which rounding may put x outside.
+const ROUNDED: f64 = 1e-9;
 /// What rounding errors leave unknown of a law, over its largest value.
 const UNKNOWN: f64 = 1e-16;
 
@@ -60,7 +62,8 @@ impl DistanceLaw {
     /// - [`Error::Torque`] outside.
     pub(crate) fn within(&self, x: f64) -> Result<(), Error> {
         let [farthest, nearest] = self.between;
-        if (farthest..=nearest).contains(&x) {
+        let margin = ROUNDED * (nearest - farthest);
+        if (farthest - margin..=nearest + margin).contains(&x) {
             return Ok(());
         }
         let bound = format!("known at r0/r = {x:e}, which is outside {farthest:e} to {nearest:e}");
