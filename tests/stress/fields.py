@@ -8,6 +8,7 @@ The reference is integrated twice, with relative tolerances of 1e-12 and 1e-13: 
 
 import argparse
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -18,17 +19,21 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "crates" / "py" / "
 import test_field_torque as field
 
 DAY = 86400.0
+warnings.simplefilter("ignore", andoyer.ToleranceWarning)
 
 
-def case(seed: int) -> tuple[float, float, float]:
-    """The error of the attitude at the end [rad], the error bound, and what the reference leaves unknown."""
+def case(seed: int) -> tuple[float, float, float] | None:
+    """None where the attitude is unknown at the end; otherwise the error of the attitude at the end [rad], the error bound, and what the reference leaves unknown."""
     random = np.random.default_rng([74, seed])
     path = field.orbit(1000 + seed)
     moment, tensor = random.normal(size=3) * 10 ** random.uniform(-2, 0), np.diag(random.uniform(1, 4, size=3)) * 10 ** random.uniform(4, 6)
     start = random.normal(size=4)
     start, rates = start / np.linalg.norm(start), random.normal(size=3) * 10 ** random.uniform(-3, -2.3)
     torques = [andoyer.Torque.dipole(moment, field.earth(path)), andoyer.Torque.eddy(tensor, field.earth(path))]
-    motion = andoyer.Scene(andoyer.Body(field.BODY), start, rates, torques=torques, span=(0, DAY), tolerance=1e-8).solve()
+    try:
+        motion = andoyer.Scene(andoyer.Body(field.BODY), start, rates, torques=torques, span=(0, DAY), tolerance=1e-8).solve()
+    except andoyer.TheoryError:
+        return None
 
     def torque(b, w):
         return np.cross(moment, b) + np.cross(tensor @ np.cross(w, b), b)
@@ -41,7 +46,10 @@ def case(seed: int) -> tuple[float, float, float]:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--cases", type=int, default=200)
-    errors, bounds, unknown = np.array([case(seed) for seed in range(parser.parse_args().cases)]).T
+    asked = parser.parse_args().cases
+    found = [row for row in map(case, range(asked)) if row]
+    print(f"{asked} cases, {asked - len(found)} of them with an unknown attitude at the end; 5, 50, 95, 100 %:")
+    errors, bounds, unknown = np.array(found).T
     for name, values in {
         "error [rad]": errors,
         "error bound [rad]": bounds,
