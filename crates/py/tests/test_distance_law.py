@@ -162,7 +162,8 @@ def test_a_scene_file_has_the_series(tmp_path):
     assert "[torque.source.law]" in scene.to_toml()
     assert Scene.from_toml(file) == scene
     text = scene.to_toml()
-    for good, bad in (("power = 1.0", "power = 2.0"), ("coefficients = [", "coefficients = [nan, ")):
+    for good, bad in (("power = 1.0", "power = 2.0"), ("coefficients = [", "coefficients = [nan, "), ("eccentricity = 0.641", "eccentricity = 0.7")):
+        assert good in text
         file.write_text(text.replace(good, bad), encoding="utf-8")
         with pytest.raises(Error, match="law"):
             Scene.from_toml(file)

@@ -10,8 +10,6 @@ use crate::error::{Error, torque_refused};
 use crate::input::distance_law::{DistanceLaw, MOST_COEFFICIENTS};
 use crate::input::torque::Torque;
 use crate::input::torque_source::{SourcePath, TorqueSource};
-use crate::orbit::elements::Orbit;
-use crate::orbit::table::TabulatedOrbit;
 
 /// The largest error of the series, over the largest value of the law.
 const TOLERANCE: f64 = 1e-6;
@@ -19,8 +17,7 @@ const TOLERANCE: f64 = 1e-6;
 const ROUNDING: f64 = 1e-14;
 /// Half the interval of x is at least this, over its middle: a circle has one distance.
 const NARROW: f64 = 0.01;
-/// Places between two rows of a table that are looked at, and the part by which another one may be nearer or farther.
-const PLACES_OF_TABLE: usize = 16;
+/// The part by which a table may come nearer or go farther between the places that are looked at.
 const OF_TABLE: f64 = 0.02;
 
 /// The distances of a source at which a law must be known.
@@ -40,14 +37,11 @@ impl DistanceRule {
     /// - [`Error::Torque`] for a direction and a field, which have no distance, and for a reference distance that is missing or not positive.
     pub fn new(name: &str, path: SourcePath, at: Option<f64>) -> Result<Self, Error> {
         let source = TorqueSource::new(name, path).falling(1.0, at);
-        let [nearest, farthest] = match source.path() {
-            SourcePath::Orbit(orbit) => of_orbit(orbit),
-            SourcePath::Tabulated(table) => of_table(table)?,
-            SourcePath::Field(_) | SourcePath::Direction(_) => {
-                return Err(torque_refused("law", "a law of the distance", "absent: the source has no distance"));
-            }
-        };
+        let [mut nearest, mut farthest] = source.path().distances()?;
         source.validate()?;
+        if matches!(source.path(), SourcePath::Tabulated(_)) {
+            (nearest, farthest) = (nearest * (1.0 - OF_TABLE), farthest * (1.0 + OF_TABLE));
+        }
         let (_, reference) = source.distance_power();
         let [mut low, mut high] = [reference / farthest, reference / nearest];
         let middle = 0.5 * (low + high);
@@ -136,26 +130,4 @@ fn coefficients(values: &[f64], reference: f64) -> Vec<f64> {
         sum * if k == 0 { 1.0 } else { 2.0 } / n as f64
     };
     (0..n).map(coefficient).collect()
-}
-
-/// The nearest and the farthest distance on an orbit.
-fn of_orbit(orbit: &Orbit) -> [f64; 2] {
-    let (size, e) = (orbit.asked_semi_major_axis().unwrap_or(1.0), orbit.eccentricity());
-    let farthest = if orbit.is_hyperbola() { f64::INFINITY } else { size * (1.0 + e) };
-    [size * (1.0 - e).abs(), farthest]
-}
-
-/// Those of the rows of a table and of places between them, with a margin.
-fn of_table(table: &TabulatedOrbit) -> Result<[f64; 2], Error> {
-    let mut ends = [f64::INFINITY, 0.0_f64];
-    for pair in table.times().windows(2) {
-        for k in 0..PLACES_OF_TABLE {
-            let [x, y, z] = table.position((pair[1] - pair[0]).mul_add(k as f64 / PLACES_OF_TABLE as f64, pair[0]))?;
-            let distance = x.hypot(y).hypot(z);
-            ends = [ends[0].min(distance), ends[1].max(distance)];
-        }
-    }
-    let [x, y, z] = table.positions()[table.positions().len() - 1];
-    let last = x.hypot(y).hypot(z);
-    Ok([ends[0].min(last) * (1.0 - OF_TABLE), ends[1].max(last) * (1.0 + OF_TABLE)])
 }

@@ -110,9 +110,6 @@ impl MovingSource {
             SourcePath::Direction(vector) => Vector3::from(*vector),
         };
         let distance = place.amax() * (place / place.amax()).norm();
-        if let Some(law) = &self.law {
-            law.within(self.reference / distance)?;
-        }
         out.push(View { direction: place / distance, weight: self.weight(distance), zonal: false });
         Ok(())
     }

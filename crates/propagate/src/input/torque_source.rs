@@ -10,6 +10,8 @@ use crate::orbit::table::TabulatedOrbit;
 
 /// Largest magnitude of a power of a distance.
 const MOST_POWER: f64 = 100.0;
+/// Places between two rows of a table at which its distance is looked at.
+const PLACES_OF_TABLE: usize = 16;
 
 /// A source that a polynomial names.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +38,39 @@ pub enum SourcePath {
     Field(Arc<DipoleField>),
     /// A fixed inertial direction, of any length.
     Direction([f64; 3]),
+}
+
+impl SourcePath {
+    /// The nearest and the farthest distance, in the unit of length of the path: of an orbit without a semi-major axis in this. Those of a table are looked for at its rows and at places between them.
+    ///
+    /// # Errors
+    /// - [`Error::Torque`] for a direction and a field, which have no distance.
+    pub(crate) fn distances(&self) -> Result<[f64; 2], Error> {
+        match self {
+            Self::Orbit(orbit) => {
+                let (size, e) = (orbit.asked_semi_major_axis().unwrap_or(1.0), orbit.eccentricity());
+                let farthest = if orbit.is_hyperbola() { f64::INFINITY } else { size * (1.0 + e) };
+                Ok([size * (1.0 - e).abs(), farthest])
+            }
+            Self::Tabulated(table) => {
+                let [x, y, z] = table.positions()[table.positions().len() - 1];
+                let last = x.hypot(y).hypot(z);
+                let mut ends = [last; 2];
+                for pair in table.times().windows(2) {
+                    for k in 0..PLACES_OF_TABLE {
+                        let time = (pair[1] - pair[0]).mul_add(k as f64 / PLACES_OF_TABLE as f64, pair[0]);
+                        let [x, y, z] = table.position(time)?;
+                        let distance = x.hypot(y).hypot(z);
+                        ends = [ends[0].min(distance), ends[1].max(distance)];
+                    }
+                }
+                Ok(ends)
+            }
+            Self::Field(_) | Self::Direction(_) => {
+                Err(torque_refused("law", "a law of the distance", "absent: the source has no distance"))
+            }
+        }
+    }
 }
 
 impl TorqueSource {
@@ -128,6 +163,11 @@ impl TorqueSource {
         }
         if law.is_some() && (*power != 1.0 || matches!(path, SourcePath::Field(_))) {
             return Err(torque_refused("law", format!("{name}: {power}"), "of r0/r: with the power 1 of a distance"));
+        }
+        if let Some(law) = law {
+            for distance in path.distances()? {
+                law.within(reference_distance / distance)?;
+            }
         }
         match path {
             SourcePath::Direction(vector)
