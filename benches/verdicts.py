@@ -31,7 +31,7 @@ LAWS = ("lambert", "lommel-seeliger", "lommel-seeliger + 0.1 lambert")
 PARTS = ("periods", "pole", "mode")
 ANSWERS = ("secure right", "secure wrong", "ambiguous", "not determined")
 NONE = "–"
-AXES_ERROR, NEAR_POLE, HALF_TURN, STARTS = 0.1, 10.0, 0.5, 20_000
+AXES_ERROR, NEAR_POLE, HALF_TURN, STARTS, SHAPE = 0.1, 10.0, 0.5, 20_000, "facets"
 
 
 # Bodies
@@ -347,7 +347,7 @@ def fitted(data, axes=None, **options):
     """The fit of a data set."""
     from andoyer import fit
 
-    given = {name: data[name] for name in ("sun", "observer", "curves")} | {"shape": True} | options
+    given = {name: data[name] for name in ("sun", "observer", "curves")} | {"shape": SHAPE} | options
     axes = data["axes"] if axes is None else axes
     return fit.light_curve(axes, data["times"], magnitudes=data["magnitudes"], sigma=data["sigma"], **given)
 

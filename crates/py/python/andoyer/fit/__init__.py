@@ -5,6 +5,7 @@ The module needs SciPy, which ``pip install scipy`` installs; pictures need matp
 
 from andoyer.fit._attitudes import attitudes
 from andoyer.fit._clones import clones
+from andoyer.fit._facets import FacetAreas
 from andoyer.fit._light_curve import light_curve
 from andoyer.fit._magnitudes import ZeroPoints
 from andoyer.fit._optimum import Alias, Optimum
@@ -12,4 +13,4 @@ from andoyer.fit._result import Draws, Fit
 from andoyer.fit._scattering import brightness
 from andoyer.fit._verdict import SimpleRotation, Verdict
 
-__all__ = ["Alias", "Draws", "Fit", "Optimum", "SimpleRotation", "Verdict", "ZeroPoints", "attitudes", "brightness", "clones", "light_curve"]
+__all__ = ["Alias", "Draws", "FacetAreas", "Fit", "Optimum", "SimpleRotation", "Verdict", "ZeroPoints", "attitudes", "brightness", "clones", "light_curve"]

@@ -7,7 +7,7 @@ along B, times s (Kaufman, BIT 15, 1975): what the factors take up is no part of
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -70,6 +70,11 @@ class Curve:
     """Whether differences of logarithms are fitted: magnitudes, whose factors are then weighted means."""
     spin: int | None = None
     """The body axis of a simple rotation, about which alone the body turns; None for any motion."""
+
+    @property
+    def rough(self) -> "Curve":
+        """The same data with the model of an ellipsoid: what a search begins with."""
+        return self
 
     @property
     def columns(self) -> list[int]:
@@ -145,6 +150,16 @@ class Curve:
         _, along = self._relative(value, by_step)
         weights = self.weights if self.logarithms else self.weights * (factors[0] @ self.members.T * value[0]) ** 2
         return value[0], factors[0], -along[0], 1 / (weights @ self.members)
+
+    def elsewhere(self, state: States, times: Array, sun: Array, observer: Array) -> Array:
+        """The brightness of a state at other times and directions, components in the leading axis, without a factor."""
+        there = self._at(times, sun, observer)
+        seen = there._seen(state, there._ensemble(state).attitude(times))
+        value: Array = with_derivatives(*seen, self.scattering, derivatives=False).value[0]
+        return value
+
+    def _at(self, times: Array, sun: Array, observer: Array) -> "Curve":
+        return replace(self, times=times, sun=sun, observer=observer)
 
     def _model(self, states: States) -> tuple[Array, Array, Array]:
         """Brightnesses, their derivatives by a step, shape (m, k, n), and the factors of the curves."""

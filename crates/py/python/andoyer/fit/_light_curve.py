@@ -14,16 +14,17 @@ from andoyer._extra import extra
 from andoyer._quaternions import Array, angle_between, product
 from andoyer._refusal import refusal
 from andoyer.fit._curve import Curve, States
+from andoyer.fit._facets import with_facets
 from andoyer.fit._given import enough, generator_of, scene_of, shaped, span, whole_number
 from andoyer.fit._magnitudes import POGSON, ZeroPoints
 from andoyer.fit._message import composed, largest_reduced, rivals
 from andoyer.fit._observed import Data, Light, Seen, confused, data_of, gaps
 from andoyer.fit._optimum import HALF_TURN, Optimum
-from andoyer.fit._other_shape import with_series
+from andoyer.fit._other_shape import other_shapes
 from andoyer.fit._result import Fit, Photometric, judged
 from andoyer.fit._scattering import axes_of, law
 from andoyer.fit._search import Population, at_other_rates, best, improve, random_spins, random_states, reflections, search
-from andoyer.fit._spectrum import frequencies_of, from_spectrum, of_one_period, together
+from andoyer.fit._spectrum import frequencies_of, from_spectrum, of_one_period, refined, together
 from andoyer.fit._steps import Steps, moments_of_ellipsoid
 from andoyer.fit._summary import described
 from andoyer.fit._verdict import REACHED, Evidence, judge, scale, simple_rotation
@@ -42,6 +43,7 @@ WOBBLE = 1e-3
 HYPOTHESES = 4
 """Simple rotations that are improved to the end beside a tumbling motion."""
 PRINCIPAL = "principal-axis"
+FACETS = "facets"
 SAME = 0.02
 """Largest angle [rad], at three times of the data, between attitudes of one optimum."""
 
@@ -59,7 +61,7 @@ def light_curve(
     curves: ArrayLike | None = None,
     distances: ArrayLike | None = None,
     scattering: str = "lommel-seeliger",
-    shape: bool = False,
+    shape: bool | str = False,
     mode: str | None = None,
     scene: Scene | None = None,
     starts: int = 100_000,
@@ -99,8 +101,9 @@ def light_curve(
         changed: curves that last longer than a night are reduced to unit distances, by −5 lg(rΔ) in magnitudes.
     scattering : {"lommel-seeliger", "geometric"}, optional
         Law of scattering, as for `brightness`.
-    shape : bool, optional
-        If True, the axis ratios b/a and c/a are fitted too.
+    shape : bool or "facets", optional
+        If True, the axis ratios b/a and c/a are fitted too. With "facets" the body may also differ from the ellipsoid: `Fit.facets`. Each of 42 facets gets an area of its own, with a prior deviation of 50 % from that of the
+        ellipsoid, which is a part of χ²: for bodies in nature, which are no ellipsoids. Needs ``scattering="lommel-seeliger"``.
     mode : {None, "principal-axis"}, optional
         "principal-axis" holds the body in rotation about its axis of greatest inertia: period, pole and phase are fitted. By default any motion is fitted, and simple rotation too, as a
         hypothesis beside it: `Fit.simple_rotation`.
@@ -149,14 +152,20 @@ def light_curve(
     extra("scipy.optimize", "andoyer.fit")
     semi_axes = axes_of(axes)
     law(scattering)
-    for argument, value in (("shape", shape), ("scale_errors", scale_errors)):
-        if not isinstance(value, (bool, np.bool_)):
-            raise refusal(argument, repr(value), "True or False", f"= {value!r}: it must be True or False")
+    if not isinstance(scale_errors, (bool, np.bool_)):
+        raise refusal("scale_errors", repr(scale_errors), "True or False", f"= {scale_errors!r}: it must be True or False")
+    faceted = isinstance(shape, str) and shape == FACETS
+    if not (faceted or isinstance(shape, (bool, np.bool_))):
+        raise refusal("shape", repr(shape), f"True, False or {FACETS!r}", f"= {shape!r}: it must be True, False or {FACETS!r}")
+    if faceted and scattering != "lommel-seeliger":
+        raise refusal("shape", FACETS, "lommel-seeliger", f"= {FACETS!r} needs the scattering 'lommel-seeliger', not {scattering!r}")
     if mode not in (None, PRINCIPAL):
         raise refusal("mode", mode, PRINCIPAL, f"= {mode!r}: it must be None or {PRINCIPAL!r}")
     largest = _difference(delta_chi_square)
     data = data_of((times, scene), (brightness, magnitudes, sigma), (sun, observer), curves, distances)
     curve = replace(data.curve, scattering=scattering, shape=bool(shape), spin=int(np.argmax(moments_of_ellipsoid(semi_axes))) if mode else None)
+    if faceted:
+        curve = with_facets(curve)
     enough(len(curve.times), len(curve.columns) + curve.members.shape[1], "times", "give more points")
     if data.epoch is None:
         data = replace(data, epoch=0.0 if scene is None else epoch_of(scene_of(scene)))
@@ -181,7 +190,8 @@ def light_curve(
         rotation = _simple(simple, semi_axes, slow, (max(FEW, count // 5), HYPOTHESES), generator)
         if rotation.population.chi_squares[0] < found.population.chi_squares[0]:
             found = _from_rotation(curve, found, rotation)
-        series = of_one_period(curve, slow)
+        # Facets are a body of another shape already.
+        series = np.inf if faceted else of_one_period(curve, slow)
     return _result(data, found, Hypothesis(replace(data, curve=simple), rotation, series), largest, scale_errors)
 
 
@@ -200,12 +210,12 @@ class Hypothesis:
     data: Data
     found: Found
     series: float
-    """χ² of a Fourier series of one period."""
+    """χ² of a Fourier series of one period; infinite where facets are fitted."""
 
 
 def _searched(curve: Curve, drawn: States, spectral: Population, count: int = POLISHED) -> Found:
     """The minima to which random starts and those from the spectrum lead, with their reflections and their aliases by the gaps of the data."""
-    ended = population = together([search(curve, drawn), spectral])
+    ended = population = together([refined(curve, search(curve.rough, drawn)), spectral])
     population = _polished(curve, improve(curve, best(_distinct(curve, population), count), SETTLING))
     if count == POLISHED:
         population = _with_others(curve, population)
@@ -374,7 +384,7 @@ def _result(data: Data, found: Found, hypothesis: Hypothesis | None, delta_chi_s
         (curve.weights * curve.brightness) @ curve.members / (curve.weights @ curve.members) * ((curve.weights * curve.brightness) @ curve.members)
     )
     constant = float(np.sum(curve.weights * curve.brightness**2) - of_means)
-    others = with_series(hypothesis.data.curve, hypothesis.found.population.states, constant) if hypothesis is not None else None
+    others = other_shapes(hypothesis.data.curve, hypothesis.found.population.states, constant) if hypothesis is not None else None
     steps = np.diff(np.sort(curve.times))
     evidence = Evidence(
         optima=minima,
@@ -392,7 +402,7 @@ def _result(data: Data, found: Found, hypothesis: Hypothesis | None, delta_chi_s
         unit=" s" if hasattr(data.epoch, "jd1") or has_units(as_one("times", data.times)) else "",
     )
     if data.photometry.zero is None:
-        _warn_of_magnitudes(curve.brightness, best.chi_square, fit.degrees_of_freedom)
+        _warn_of_magnitudes(data.photometry.brightness, best.chi_square, fit.degrees_of_freedom)
     message = composed(best.chi_square, fit.degrees_of_freedom, ADVICE, lost, rivals(minima, evidence.duration))
     light = Light(data, fit._model)  # type: ignore[arg-type]
     photometric = Photometric(zero_points, judge(evidence), simple_rotation(evidence), light, scale(evidence))
@@ -432,6 +442,7 @@ def _of_minimum(data: Data, state: States, best: Optimum, scale_errors: bool) ->
     curve = data.curve
     model = Seen(curve, state)
     residuals, jacobian = (array[0] for array in model.derivatives(np.zeros((1, len(curve.columns)))))
+    residuals = residuals[: len(curve.times)]
     names = ("attitude", "angular_velocity" if curve.spin is None else "spin", *(("shape",) if curve.shape else ()))
     steps = Steps(best.scene, names, state.axes[0], spin=curve.spin or 0)
     covariance, lost, sentence = judged(steps, np.zeros(jacobian.shape[1]), jacobian)
@@ -439,15 +450,12 @@ def _of_minimum(data: Data, state: States, best: Optimum, scale_errors: bool) ->
     factor = max(1.0, best.chi_square / degrees) if scale_errors and degrees > 0 else 1.0
     units = steps.units(np.zeros(jacobian.shape[1]))
     zero_points = _zero_points(data, state, covariance / np.outer(units, units), factor)
-    measured = residuals / np.sqrt(curve.weights)
-    if data.photometry.zero is not None:
-        measured = -POGSON * measured
     fit = Fit(
         scene=best.scene,
         parameters=steps.labels,
         covariance=factor * covariance,
         undetermined=lost,
-        residuals=measured,
+        residuals=data.photometry.given - Light(data, model).at(None, None, None, None),
         chi_square=best.chi_square,
         degrees_of_freedom=degrees,
         message="",

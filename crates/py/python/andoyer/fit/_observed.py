@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,6 +12,7 @@ from andoyer._core import Scene
 from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.fit._curve import Curve, States
+from andoyer.fit._facets import FacetAreas, Facets
 from andoyer.fit._given import from_epoch, from_first, shaped
 from andoyer.fit._magnitudes import POGSON, Photometry, emitted
 from andoyer.fit._magnitudes import photometry as photometry_of
@@ -133,6 +134,12 @@ class Light:
             raise refusal(f"times[{place}]", float(at[place]), "finite", f"= {at[place]}: it must be finite")
         return self._since(at, sun, observer, label)
 
+    @property
+    def facets(self) -> FacetAreas | None:
+        """The facets of the state, where they are fitted."""
+        curve = self.data.curve
+        return curve.facets(self.seen.state) if isinstance(curve, Facets) else None
+
     def nights(self, count: int, units: bool) -> tuple[list[Night], int]:
         """The first nights, at most so many, and the number of all. `units`: the times are in seconds."""
         curve, photometry = self.data.curve, self.data.photometry
@@ -190,17 +197,7 @@ class Light:
                 vectors = np.stack([np.interp(at, curve.times[order], axis[order]) for axis in own], axis=1)
             sides.append(vectors)
         directions = [vectors.T for vectors in unit_vectors(*sides)]
-        light = replace(
-            curve,
-            times=at,
-            brightness=np.zeros(len(at)),
-            weights=np.ones(len(at)),
-            sun=directions[0],
-            observer=directions[1],
-            members=np.ones((len(at), 1)),
-            logarithms=True,
-        )
-        seen, _, _, _ = light.model(state)
+        seen = curve.elsewhere(state, at, directions[0], directions[1])
         zero = self.data.photometry.zero
         photometry = Photometry(seen, seen, None if zero is None else np.full(len(at), zero[self.data.labels == labels[place]][0]))
         return photometry.as_given(factors[place] * seen)

@@ -13,6 +13,7 @@ import numpy as np
 
 from andoyer._quaternions import Array
 from andoyer.fit._curve import Curve, States
+from andoyer.fit._facets import Facets
 
 HARMONICS = np.arange(1, 9)
 """Multiples of the frequency of rotation."""
@@ -31,8 +32,11 @@ class OtherShapes(NamedTuple):
     """What is fitted to the data: the state, the shape, the factors of the curves and the series."""
 
 
-def with_series(curve: Curve, states: States, square: float) -> OtherShapes:
-    """The series beside each of some simple rotations. `square`: χ² of constant brightness in each curve."""
+def other_shapes(curve: Curve, states: States, square: float) -> OtherShapes:
+    """The series beside each of some simple rotations, or their facets. `square`: χ² of constant brightness in each curve."""
+    if isinstance(curve, Facets):
+        residuals, jacobians = curve.residuals(states)
+        return OtherShapes(np.sum(residuals**2, axis=1), residuals[:, : len(curve.times)], curve.members.shape[1] + jacobians.shape[1])
     root = np.sqrt(curve.weights if curve.logarithms else curve.weights * curve.brightness**2)
     deviation = AMPLITUDE * np.sqrt(square / np.sum(root**2))
     change = 2 * (curve.times - curve.times.min()) / max(float(np.ptp(curve.times)), 1e-300) - 1

@@ -14,6 +14,7 @@ from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.fit._degeneracy import sentence, undetermined
 from andoyer.fit._draws import Candidates, Model, candidates
+from andoyer.fit._facets import FacetAreas
 from andoyer.fit._given import generator_of, whole_number
 from andoyer.fit._magnitudes import ZeroPoints
 from andoyer.fit._members import members_of
@@ -124,6 +125,11 @@ class Fit:
     def zero_points(self) -> ZeroPoints | None:
         """The zero point of each curve with its error; of `light_curve`."""
         return self._photometric.zero_points if self._photometric else None
+
+    @property
+    def facets(self) -> FacetAreas | None:
+        """Normals and areas of the facets of the best state; of `light_curve` with ``shape="facets"``."""
+        return self._photometric.light.facets if self._photometric else None
 
     @property
     def verdict(self) -> Verdict | None:

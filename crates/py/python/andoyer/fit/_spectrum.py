@@ -46,6 +46,8 @@ SPREAD = 0.1
 """Deviation of the logarithms of axis ratios of starts, where the shape is fitted."""
 SHAPES = 16
 """Shapes of the starts, where the shape is fitted."""
+REFINED, REFINING = 4, 6
+"""The best of so many states of an ellipsoid gets facets, and its steps with them."""
 ENERGIES = 200
 """Motions of each mode from which frequency ratios are interpolated."""
 
@@ -215,13 +217,21 @@ def from_spectrum(curve: Curve, axes: Array, periods: tuple[float, float], gener
                 states = random_spins(axes, spin or 0, (1 / pair[0], 1 / pair[0]), each, generator)
             else:
                 states = shapes.starts(np.tile(pair, (each, 1)), generator)
-            first = lowest(Population(states, curve.chi_squares(states)), kept)
-            found[place].append(improve(curve, first, steps))
+            first = lowest(Population(states, curve.rough.chi_squares(states)), kept)
+            found[place].append(refined(curve, improve(curve.rough, first, steps)))
         order = np.argsort([min(float(population.chi_squares.min()) for population in populations) for populations in found], kind="stable")
         pairs, found = pairs[order], [found[place] for place in order]
     if not found:
         return Population(States(np.zeros((0, 3)), np.zeros((0, 4)), np.zeros((0, 3))), np.zeros(0))
     return improve(curve, together([lowest(together(populations), ENDED) for populations in found[: rounds[1][0]]]), LAST)
+
+
+def refined(curve: Curve, population: Population) -> Population:
+    """The best of the states that fit an ellipsoid, with the facets of the curve if it has any, which take ten times as long."""
+    if curve.rough is curve:
+        return population
+    states = lowest(population, max(len(population.chi_squares) // REFINED, 1)).states
+    return improve(curve, Population(states, curve.chi_squares(states)), REFINING)
 
 
 def lowest(population: Population, count: int) -> Population:

@@ -1,0 +1,273 @@
+"""χ² of light curves of a body that is nearly an ellipsoid, whose facets are solved for.
+
+The surface is cut into facets by the directions of their normals n. The brightness is that of the ellipsoid, in closed form, and for each facet what it adds if its area A is larger by the part δ: linear
+in δ, as for every convex body (Kaasalainen and Torppa, Icarus 153, 24, 2001). A part has the prior deviation `DEVIATION`, and the surface stays closed, Σ A δ n = 0. Facets and the factors of curves are
+solved for in each state (variable projection, as in `_curve`), and the prior is a part of χ²: its rows stand below those of the data in residuals and derivatives.
+
+So few and so broad facets imitate eggs, boxes and other laws of scattering: at the true motion of the 18 sets of benches/verdicts.py with the seeds 300 to 317 the χ² over the number of data is 3.6 in the
+median without facets and 0.99 with them (largest 386 and 4.5, for boxes).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import NamedTuple
+
+import numpy as np
+
+from andoyer._quaternions import Array
+from andoyer.fit._curve import Curve, States
+from andoyer.fit._scattering import with_derivatives
+from andoyer.fit._steps import logarithms_by_shape, moments_of_ellipsoid
+
+DEVIATION = 0.5
+"""Prior standard deviation of the part by which a facet is larger than that of the ellipsoid."""
+OPEN = 0.01
+"""That of Σ A δ n, over the whole surface: spots of another albedo."""
+LEAST = 0.05
+"""The brightness is at least this part of that of the ellipsoid."""
+ROUNDS = 3
+"""Linear solutions of the parts."""
+STEPS = (1.0, 0.3, 0.1)
+"""Parts of the way to a solution that are tried, until χ² is lower."""
+
+
+def _normals() -> Array:
+    """The corners of an icosahedron and the middles of its edges, shape (42, 3)."""
+    corner = np.array([(0.0, first, second * (1 + 5**0.5) / 2) for first in (1, -1) for second in (1, -1)])
+    corners = np.concatenate([np.roll(corner, turn, axis=1) for turn in range(3)])
+    first, second = np.nonzero(np.triu(np.isclose(np.linalg.norm(corners[:, None] - corners, axis=-1), 2.0)))
+    found = np.concatenate([corners, corners[first] + corners[second]])
+    units: Array = found / np.linalg.norm(found, axis=1, keepdims=True)
+    return units
+
+
+NORMALS = _normals()
+
+
+class FacetAreas(NamedTuple):
+    """The facets of a body."""
+
+    normals: Array
+    """Outward unit normals about the body axes, shape (f, 3)."""
+    areas: Array
+    """Areas over the whole surface of the ellipsoid, shape (f,)."""
+
+
+class Solved(NamedTuple):
+    """Facets of some states that fit the data best."""
+
+    parts: Array
+    """δ, shape (m, f)."""
+    value: Array
+    """Brightnesses, shape (m, n)."""
+    left: Array
+    """Logarithms of the data less those of the model with the best factors."""
+    prior: Array
+    """Its normal equations, shape (m, f, f)."""
+    chi_squares: Array
+
+
+class Slopes(NamedTuple):
+    """Derivatives of the logarithms of some states."""
+
+    solved: Solved
+    by_step: Array
+    """By a step at given facets, over σ, without means over the curves, shape (m, k, n)."""
+    mean: Array
+    """Those means, shape (m, k, c)."""
+    columns: Array
+    """By the parts, over σ, shape (m, n, f)."""
+    matrix: Array
+    """The normal equations of the parts with the prior, shape (m, f, f)."""
+    followed: Array
+    """How much the facets would make up for of a step, shape (m, k, f)."""
+
+
+class Lit(NamedTuple):
+    """What is seen of some states."""
+
+    ellipsoid: Array
+    """Brightnesses of the ellipsoid, shape (m, n)."""
+    added: Array
+    """What a facet of twice the area adds, shape (m, n, f)."""
+    sun: Array
+    """Cosines of the angles between the normals and the Sun, 0 at night, shape (m, n, f)."""
+    observer: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Facets(Curve):
+    """Logarithms of brightnesses, whose model has facets."""
+
+    @property
+    def rough(self) -> Curve:
+        """The same data with an ellipsoid."""
+        return Curve(*(getattr(self, each.name) for each in fields(Curve)))
+
+    def _chi_squares(self, states: States) -> Array:
+        attitudes = self._ensemble(states).attitude(self.times)
+        found, known = np.full(len(attitudes), np.inf), np.isfinite(attitudes).all(axis=(1, 2))
+        if known.any():
+            states = states.part(np.flatnonzero(known))
+            axes, sun, observer = self._seen(states, attitudes[known])
+            ellipsoid = with_derivatives(axes, sun, observer, self.scattering, derivatives=False).value
+            found[known] = self._solved(states.axes, _lit(states.axes, ellipsoid, sun, observer)).chi_squares
+        return found
+
+    def residuals(self, states: States) -> tuple[Array, Array]:
+        """As of a curve, below them those of the prior: shapes (m, n + f + 3) and (m, k, n + f + 3)."""
+        ensemble = self._ensemble(states)
+        attitudes, partials = ensemble.attitude(self.times), ensemble.partials(self.times).attitude
+        rows = len(self.times) + len(NORMALS) + 3
+        residuals, jacobian = np.full((len(attitudes), rows), np.nan), np.full((len(attitudes), len(self.columns), rows), np.nan)
+        known = np.isfinite(attitudes).all(axis=(1, 2)) & np.isfinite(partials).all(axis=(1, 2, 3))
+        if known.any():
+            states = states.part(np.flatnonzero(known))
+            slopes, closed = self._with_slopes(states, attitudes[known], partials[known]), _closed(states.axes)
+            solved, root = slopes.solved, np.sqrt(self.weights)
+            taken = slopes.followed @ np.swapaxes(slopes.columns, 1, 2)
+            by_step = slopes.by_step - taken + self._mean(taken / root) @ self.members.T * root
+            residuals[known] = np.concatenate([solved.left * root, -(closed @ solved.parts[..., None])[..., 0], -solved.parts / DEVIATION], axis=1)
+            jacobian[known] = np.concatenate([by_step, -slopes.followed @ np.swapaxes(closed, 1, 2), -slopes.followed / DEVIATION], axis=2)
+        return residuals, jacobian
+
+    def model(self, state: States) -> tuple[Array, Array, Array, Array]:
+        """As of a curve; the variances are those at a fixed state with free facets."""
+        ensemble = self._ensemble(state)
+        slopes = self._with_slopes(state, ensemble.attitude(self.times), ensemble.partials(self.times).attitude)
+        by_part = self._mean(slopes.columns[0].T / np.sqrt(self.weights))
+        variances = 1 / (self.weights @ self.members) + np.sum(by_part * np.linalg.solve(slopes.matrix[0], by_part), axis=0)
+        value = slopes.solved.value
+        return value[0], self.factors(value)[0], slopes.followed[0] @ by_part - slopes.mean[0], variances
+
+    def elsewhere(self, state: States, times: Array, sun: Array, observer: Array) -> Array:
+        """The brightness of a state with the facets of these data, at other times and directions."""
+        parts = self._of(state).parts
+        there = self._at(times, sun, observer)
+        axes, sun, observer = there._seen(state, there._ensemble(state).attitude(times))
+        ellipsoid = with_derivatives(axes, sun, observer, self.scattering, derivatives=False).value
+        value: Array = _bright(_lit(state.axes, ellipsoid, sun, observer), parts)[0]
+        return value
+
+    def facets(self, state: States) -> FacetAreas:
+        """The facets of a state."""
+        areas = _areas(state.axes)[0]
+        return FacetAreas(NORMALS, areas / areas.sum() * (1 + self._of(state).parts[0]))
+
+    def _of(self, state: States) -> Solved:
+        axes, sun, observer = self._seen(state, self._ensemble(state).attitude(self.times))
+        ellipsoid = with_derivatives(axes, sun, observer, self.scattering, derivatives=False).value
+        return self._solved(state.axes, _lit(state.axes, ellipsoid, sun, observer))
+
+    def _with_slopes(self, states: States, attitudes: Array, partials: Array) -> Slopes:
+        axes, sun, observer = self._seen(states, attitudes)
+        found = with_derivatives(axes, sun, observer, self.scattering, shape=self.shape)
+        lit = _lit(states.axes, found.value, sun, observer)
+        solved = self._solved(states.axes, lit)
+        weights = (_areas(states.axes) * solved.parts)[:, None, :]
+        # ∂/∂l of l s/(l + s) is (s/(l + s))². A direction s about body axes turns by s × θ: n·(s × θ) = θ·(n × s).
+        over = np.where((lit.sun > 0) & (lit.observer > 0), 1 / (lit.sun + lit.observer + 1e-300), 0.0)
+        turns = [
+            np.cross(((other * over) ** 2 * weights) @ NORMALS, np.moveaxis(direction, 0, -1))
+            for other, direction in ((lit.observer, sun), (lit.sun, observer))
+        ]
+        by_state = np.einsum("mni,mnij->mjn", np.moveaxis(found.by_turn, 0, -1) + turns[0] + turns[1], partials)
+        by_state[:, 3:6] *= np.linalg.norm(states.rates, axis=1)[:, None, None]
+        by_step = by_state[:, :6]
+        if self.shape:
+            by_logarithm = by_state[:, 6:] * moments_of_ellipsoid(states.axes)[:, :, None]
+            by_facets = (lit.added * solved.parts[:, None, :]) @ _slopes_of_areas(states.axes)
+            by_shape = np.swapaxes(logarithms_by_shape(states.axes), 1, 2) @ by_logarithm + np.moveaxis(found.by_shape, 0, 1) + np.swapaxes(by_facets, 1, 2)
+            by_step = np.concatenate([by_step, by_shape], axis=1)
+        relative, root = by_step[:, self.columns] / solved.value[:, None], np.sqrt(self.weights)
+        mean = self._mean(relative)
+        slopes = (relative - mean @ self.members.T) * root
+        columns = lit.added * (root / solved.value)[..., None]
+        matrix = self._matrix(columns) + solved.prior
+        return Slopes(solved, slopes, mean, columns, matrix, np.swapaxes(np.linalg.solve(matrix, np.swapaxes(slopes @ columns, 1, 2)), 1, 2))
+
+    def _solved(self, axes: Array, lit: Lit) -> Solved:
+        """The facets that fit best, by linear solutions: the first of the brightness itself, because the ellipsoid can be far off, the next of its logarithm by Gauss and Newton's method."""
+        closed, root = _closed(axes), np.sqrt(self.weights)
+        prior = np.swapaxes(closed, 1, 2) @ closed + np.eye(len(NORMALS)) / DEVIATION**2
+        parts, value = np.zeros((len(axes), len(NORMALS))), lit.ellipsoid
+        left, chi_squares = self._judged(value, parts, prior)
+        about = value * np.exp(left)
+        off = 1 - value / about
+        for _ in range(ROUNDS):
+            columns = lit.added * (root / about)[..., None]
+            matrix = self._matrix(columns)
+            # Without means: those of the columns then give nothing.
+            right = np.swapaxes(columns, 1, 2) @ ((off - self._mean(off) @ self.members.T) * root)[..., None] + matrix @ parts[..., None]
+            step = np.linalg.solve(matrix + prior, right)[..., 0] - parts
+            for factor in STEPS:
+                new = parts + factor * step
+                bright = _bright(lit, new)
+                judged = self._judged(bright, new, prior)
+                better = judged[1] < chi_squares
+                chosen = better[:, None]
+                # What is left of the step of a state that moved is none.
+                step = np.where(chosen, 0.0, step)
+                parts, value, left = (np.where(chosen, *pair) for pair in ((new, parts), (bright, value), (judged[0], left)))
+                chi_squares = np.where(better, judged[1], chi_squares)
+                if better.all():
+                    break
+            off, about = left, value
+        return Solved(parts, value, left, prior, chi_squares)
+
+    def _matrix(self, columns: Array) -> Array:
+        """The normal equations of columns without their means over each curve."""
+        root = np.sqrt(self.weights)[:, None] * self.members
+        sums = np.swapaxes(columns, 1, 2) @ (root / np.sqrt(self.weights @ self.members))
+        matrix: Array = np.swapaxes(columns, 1, 2) @ columns - sums @ np.swapaxes(sums, 1, 2)
+        return matrix
+
+    def _judged(self, value: Array, parts: Array, prior: Array) -> tuple[Array, Array]:
+        """What is left of the logarithms, and χ² with the prior."""
+        left = self._left(value)
+        return left, left**2 @ self.weights + np.einsum("mf,mfg,mg->m", parts, prior, parts)
+
+    def _mean(self, values: Array) -> Array:
+        """Weighted means over each curve, of the last axis."""
+        mean: Array = (values * self.weights) @ self.members / (self.weights @ self.members)
+        return mean
+
+
+def with_facets(curve: Curve) -> Facets:
+    """The same data with facets. Intensities become logarithms, with the errors σ over the intensity."""
+    data, weights = (curve.brightness, curve.weights) if curve.logarithms else (np.log(curve.brightness), curve.weights * curve.brightness**2)
+    return Facets(curve.times, data, weights, curve.sun, curve.observer, curve.members, curve.scattering, True, True, curve.spin)
+
+
+def _areas(axes: Array) -> Array:
+    """Areas of the facets of ellipsoids over (π/2) a³, shape (m, f): over the unit sphere of normals (abc)²/(Σ a²n²)²."""
+    total = axes**2 @ NORMALS.T**2
+    first, second, third = axes.T[:, :, None]
+    areas: Array = 8 / len(NORMALS) * (second * third / total) ** 2 / first
+    return areas
+
+
+def _slopes_of_areas(axes: Array) -> Array:
+    """Derivatives of the logarithms of the areas by those of b/a and c/a, shape (m, f, 2)."""
+    parts = axes[:, None, :] ** 2 * NORMALS**2
+    slopes: Array = 2 - 4 * parts[:, :, 1:] / parts.sum(axis=-1, keepdims=True)
+    return slopes
+
+
+def _closed(axes: Array) -> Array:
+    """The rows of Σ A δ n = 0 over its prior deviation, shape (m, 3, f)."""
+    areas = _areas(axes)
+    rows: Array = NORMALS.T * (areas / (OPEN * areas.sum(axis=1, keepdims=True)))[:, None, :]
+    return rows
+
+
+def _lit(axes: Array, ellipsoid: Array, sun: Array, observer: Array) -> Lit:
+    """The facets under directions about body axes, components in the leading axis."""
+    lit, seen = (np.maximum(np.moveaxis(vectors, 0, -1) @ NORMALS.T, 0.0) for vectors in (sun, observer))
+    return Lit(ellipsoid, lit * seen / (lit + seen + 1e-300) * _areas(axes)[:, None, :], lit, seen)
+
+
+def _bright(lit: Lit, parts: Array) -> Array:
+    value: Array = np.maximum(lit.ellipsoid + (lit.added @ parts[..., None])[..., 0], LEAST * lit.ellipsoid)
+    return value
