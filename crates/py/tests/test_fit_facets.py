@@ -54,15 +54,15 @@ def test_a_box_that_tumbles_is_fitted():
     truth, times, given = observed(TUMBLING)
     start = Scene(BODY, truth.attitude, np.multiply(TUMBLING, 1.0005))
     ellipsoid, found = (fit.light_curve(SIDES, times, **given, shape=shape, scene=start) for shape in (True, "facets"))
-    assert ellipsoid.reduced_chi_square > 5 > 2.1 > found.reduced_chi_square
+    assert ellipsoid.reduced_chi_square > 5 > 3.3 > found.reduced_chi_square
     periods, expected = (np.array(scene.solve().periods["extremal-axis"]) for scene in (found.scene, truth))
     # In turns over the data, of which the verdict counts half a one as another pair.
     assert np.all(np.abs(1 / periods - 1 / expected) * SPAN < 0.15)
     # The zero points of the curves are 0.3 mag apart.
     assert np.abs(np.diff(found.zero_points.magnitudes) - 0.3).max() < 0.03
-    assert np.std(found.residuals) < 1.3 * SIGMA
+    assert np.std(found.residuals) < 1.5 * SIGMA
     normals, areas = found.facets
-    assert normals.shape == (42, 3) and abs(areas.sum() - 1) < 0.3 and np.abs(areas @ normals).max() < 0.01
+    assert normals.shape == (42, 3) and abs(areas.sum() - 1) < 0.1 and np.abs(areas @ normals).max() < 0.01
     elliptic = fit.light_curve(SIDES, times, **given, shape="facets", scene=truth).facets.areas
     assert np.allclose(areas, elliptic, atol=1e-3)
 
@@ -73,7 +73,7 @@ def test_a_box_in_simple_rotation_has_its_period():
     ellipsoid, found = (fit.light_curve(SIDES, times, **given, shape=shape, mode="principal-axis", scene=start) for shape in (True, "facets"))
     assert ellipsoid.reduced_chi_square > 5 > 2 > found.reduced_chi_square
     deviation = np.sqrt(found.covariance[3, 3])
-    assert abs(np.linalg.norm(found.scene.angular_velocity) - 1.7) < 5 * deviation < 5e-3
+    assert abs(np.linalg.norm(found.scene.angular_velocity) - 1.7) < 5 * deviation < 1e-2
 
 
 def test_intensities_are_fitted_as_magnitudes():
