@@ -51,7 +51,7 @@ def evidence(rates, noise, harmonic=None, tumbling=1.0):
         duration=float(times[-1]),
         reached=5,
         simple=simple.optima,
-        other_shapes=_other_shape.with_series(curve, states, constant),
+        other_shapes=_other_shape.other_shapes(curve, states, constant),
         observed=float(sum(np.ptp(times[nights == night]) for night in range(3))),
         series=np.inf,
         constant=constant,

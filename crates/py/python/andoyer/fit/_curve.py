@@ -89,6 +89,9 @@ class Curve:
         rates = states.rates + full[:, 3:6] * np.linalg.norm(states.rates, axis=1, keepdims=True)
         axes = states.axes.copy()
         axes[:, 1:] *= np.exp(full[:, 6:])
+        if self.spin is not None:
+            # The rotation stays about the axis of greatest inertia.
+            axes[:, self.spin] = axes.min(axis=1)
         attitudes = product(states.attitudes, exponential(full[:, :3]))
         return States(axes, attitudes / np.linalg.norm(attitudes, axis=1, keepdims=True), rates)
 
