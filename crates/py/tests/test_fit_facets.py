@@ -64,8 +64,8 @@ def test_a_box_that_tumbles_is_fitted():
     assert np.std(found.residuals) < 1.5 * SIGMA
     normals, areas = found.facets
     assert normals.shape == (42, 3) and abs(areas.sum() - 1) < 0.1 and np.abs(areas @ normals).max() < 0.05
-    elliptic = fit.light_curve(SIDES, times, **given, shape="facets", scene=truth).facets.areas
-    assert np.allclose(areas, elliptic, atol=1e-3)
+    nearby = fit.light_curve(SIDES, times, **given, shape="facets", scene=truth).facets.areas
+    assert np.allclose(areas, nearby, atol=5e-3)
 
 
 def test_a_box_in_simple_rotation_has_its_period():
