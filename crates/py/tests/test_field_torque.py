@@ -1,4 +1,4 @@
-"""Dipoles and eddy currents in a tilted field that turns, against SciPy's DOP853."""
+"""Dipoles and eddy currents in a tilted field that turns, against SciPy's DOP853; the damping of metal spheres, against the table of Hertz (1880)."""
 
 import pickle
 
@@ -130,6 +130,65 @@ def test_eddy_currents_of_a_sphere_decay_with_their_known_time():
         andoyer.Body([2, 2, 2]), [0, 0, 0, 1], [0, 1, 0], torques=andoyer.Torque.eddy(5e2, [0, 4e-3, 0]), span=(0, 300), tolerance=1e-9
     ).solve()
     assert along.angular_velocity(300.0)[1] == pytest.approx(1.0, abs=1e-12)
+
+
+# Density [kg/m³] and conductivity at 20 °C [S/m] of pure metals, and the angle [turns] that Hertz gives.
+METALS = {"silver": (10490.0, 6.30e7, 0.27), "copper": (8960.0, 5.96e7, 0.31), "aluminium": (2700.0, 3.77e7, 0.14)}
+
+
+def sphere(metal, inner, outer):
+    """The moment of inertia and the magnetic constant K of a hollow sphere of metal.
+
+    The field turns in the body, which induces the current σ/2 (ω × B) × r: along spheres, without charges. Its moment is σ/6 ∫ r² dV (ω × B).
+    """
+    density, conductivity, _ = METALS[metal]
+    square = 4 * np.pi / 5 * (outer**5 - inner**5)
+    return 2 / 3 * density * square, conductivity / 6 * square
+
+
+@pytest.mark.parametrize("metal", METALS)
+def test_metal_spheres_stop_after_the_angle_that_hertz_published(metal):
+    """Heinrich Hertz, "On induction in rotating spheres", 1880, § 9; Miscellaneous Papers, London 1896, pages 124 and 125.
+
+    A sphere of metal that turns freely across a uniform field comes to rest exponentially, spheres of all radii and hollow ones at the same rate. From one turn per second, in a field of
+    5000 of his units (mm, mg, s), 0.05 tesla, the sphere of silver still turns by 0.27 turns, of copper by 0.31, of aluminium by 0.14. In SI units the time is 4ρ/(σB²).
+    The copper and the aluminium of 1880 were not pure: theirs conducted less.
+    """
+    density, conductivity, angle = METALS[metal]
+    field, start = 0.05, 2 * np.pi
+    time = 4 * density / (conductivity * field**2)
+    for inner, outer in ((0.0, 0.03), (0.02, 0.05), (0.0999, 0.1)):
+        moment, constant = sphere(metal, inner, outer)
+        if inner == 0.0:
+            assert constant == pytest.approx(2 * np.pi / 15 * conductivity * outer**5)
+        eddy = andoyer.Torque.eddy(constant, [0, field, 0])
+        body = andoyer.Body([moment] * 3)
+        motion = andoyer.Scene(body, [0, 0, 0, 1], [0, 0, start], torques=eddy, span=(0, 40 * time), tolerance=1e-10).solve()
+        assert motion.angular_velocity(time)[2] == pytest.approx(start / np.e, rel=1e-10)
+        turned = 2 * np.arctan2(*motion.attitude(40 * time)[2:]) / (2 * np.pi)
+        assert turned == pytest.approx(time, rel=1e-10)
+    assert turned == pytest.approx(angle, rel=0.02 if metal == "silver" else 0.25)
+
+
+def test_a_spinning_satellite_in_a_dipole_field_decays_with_the_time_of_a_spherical_shell():
+    """The tensor of a thin spherical shell is K = 2π/3 σ a⁴ d, and the spin across a field decays with the time I/(K B²): S. Ortiz Gómez and S. J. I. Walker, "Eddy currents applied to
+    de-tumbling of space debris: analysis and validation of approximate proposed methods", Acta Astronautica 114 (2015), 34-53.
+
+    On a polar circular orbit the mean square of a dipole field is 5/2 of that on its equator, and a spin normal to the orbit is always across it. Units are kg, m, s and tesla.
+    """
+    radius, thickness, (density, conductivity, _) = 0.25, 1e-3, METALS["aluminium"]
+    moment, constant = 8 / 3 * np.pi * density * radius**4 * thickness, 2 * np.pi / 3 * conductivity * radius**4 * thickness
+    assert sphere("aluminium", radius - thickness / 2, radius + thickness / 2) == pytest.approx((moment, constant), rel=1e-5)
+    size = 7.0e6
+    path = andoyer.Orbit(np.sqrt(3.986004418e14 / size**3), inclination=np.pi / 2, semi_major_axis=size)
+    shell = andoyer.Torque.eddy(constant, andoyer.Field.dipole(radius=6.3712e6, equatorial=2.98e-5, axis=(0, 0, -1), orbit=path))
+    time = moment / (constant * 2.5 * (2.98e-5 * (6.3712 / 7.0) ** 3) ** 2)
+    orbits = np.round(time * path.mean_motion / (2 * np.pi))
+    end, rates = orbits * 2 * np.pi / path.mean_motion, [0.0, 0.05, 0.0]
+    motion = andoyer.Scene(andoyer.Body([moment] * 3), [0, 0, 0, 1], rates, orbit=path, torques=shell, span=(0, end), tolerance=1e-6).solve()
+    # Two and a half days, 38 revolutions.
+    assert time == pytest.approx(2.2e5, rel=0.05)
+    assert motion.angular_velocity(end) == pytest.approx([0, 0.05 * np.exp(-end / time), 0], rel=1e-9, abs=1e-12)
 
 
 def test_fields_and_their_torques_are_kept_by_files_and_pickles(tmp_path):
