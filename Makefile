@@ -200,13 +200,14 @@ nature: $(VENV)/kernels  ## a rigid Earth and Moon at DE440 positions beside REN
 	$(BIN)/python tests/nature/moon_rivals.py
 	$(BIN)/python tests/nature/earth.py
 
-bounds: $(VENV)/installed  ## errors of 3000 random scenes, 1000 tensors and 1000 integrated members against their bounds, of averaged motions and passages of resonances against their estimates, and members against their scenes; a quarter of an hour
+bounds: $(VENV)/installed  ## errors of 3000 random scenes, 1000 tensors and 1000 integrated members against their bounds, of averaged motions and passages of resonances against their estimates, and members against their scenes, derivatives by torques against 80 bits; a quarter of an hour
 	$(BIN)/python tests/stress/bounds.py
 	$(BIN)/python tests/stress/tensors.py
 	$(BIN)/python tests/stress/members.py
 	$(BIN)/python tests/stress/member_bounds.py --members 1000
 	$(BIN)/python tests/stress/evolutions.py
 	$(BIN)/python tests/stress/passages.py
+	$(BIN)/python tests/stress/torque_partials.py
 
 rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-driven rivals-partials rivals-ephemeris rivals-messages  ## the tables of ratios, in out/ too
 
