@@ -79,6 +79,7 @@ lint-rust:
 	cargo clippy -p andoyer-propagate --no-default-features --features torques,rayon --quiet -- -D warnings
 	cargo clippy -p andoyer-propagate --no-default-features --features scene-files,code --quiet -- -D warnings
 	cargo clippy -p andoyer-series --no-default-features --quiet -- -D warnings
+	cargo clippy -p andoyer-series --no-default-features --features serde,code --quiet -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps --document-private-items --quiet
 
 bench: $(VENV)/installed  ## criterion by order, then run time against error: docs/data/bench.csv, docs/data/work-precision.csv; a quarter of an hour

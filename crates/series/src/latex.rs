@@ -2,16 +2,11 @@
 //!
 //! The text is a fragment for a document with `\usepackage{amsmath}`: a head, then one `align*` for each series, in canonical order. Lines are broken at the text
 //! width of the class article at 10 pt, by an estimate of the width of the letters. Displays may break across pages. A single term longer than a line has a line
-//! of its own. [`rigid_body`] writes the normal form of the rigid body, [`part`] any other.
+//! of its own. [`rigid_body`] writes the normal form of the rigid body, `birkhoff/latex.rs` any other.
 
 mod rigid_body;
 
-use crate::birkhoff::PhaseSpace;
-use crate::display::{Harmonics, significant};
 use crate::error::Error;
-use crate::harmonics;
-use crate::monomial::{Monomial, SLOTS};
-use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
 use std::str::FromStr;
 
@@ -56,13 +51,13 @@ impl FromStr for Part {
 }
 
 /// `name` = Σ coefficient · variables, with the names as LaTeX.
-struct Series<R: RealField> {
-    name: String,
-    terms: Vec<(R::Complex, String)>,
+pub(crate) struct Series<R: RealField> {
+    pub(crate) name: String,
+    pub(crate) terms: Vec<(R::Complex, String)>,
 }
 
 /// A head and series as a fragment of a document.
-fn fragment<R: RealField>(head: &str, series: &[Series<R>]) -> String {
+pub(crate) fn fragment<R: RealField>(head: &str, series: &[Series<R>]) -> String {
     let mut text = format!("\\begingroup\\allowdisplaybreaks\n{head}");
     series.iter().for_each(|series| align(&mut text, series));
     text + "\\endgroup\n"
@@ -91,38 +86,6 @@ fn align<R: RealField>(text: &mut String, Series { name, terms }: &Series<R>) {
         text.push_str(factors);
     }
     text.push_str(if terms.is_empty() { " 0\n\\end{align*}\n" } else { "\n\\end{align*}\n" });
-}
-
-/// A part of a form with named variables: `kernel` is K with the names of its slots, `generator` one of a number, `image` the variable of a slot in the new
-/// variables or, if not direct, in the old ones. New variables have a prime.
-pub(crate) fn part<R: RealField>(
-    (what, space, order): (Part, &PhaseSpace, usize),
-    kernel: impl FnOnce() -> Result<(Polynomial<R::Complex>, Vec<String>), Error>,
-    generator: impl Fn(usize) -> Result<Polynomial<R>, Error>,
-    image: impl Fn(usize, bool) -> Result<Polynomial<R>, Error>,
-) -> Result<String, Error> {
-    let names = space.owned_names();
-    let series = |name, f: &Polynomial<R::Complex>, names: &[String], primed| {
-        let harmonics = if names == space.complex_names() { Harmonics::Complex } else { Harmonics::Real };
-        let rounded = significant::<R>(f, space.driven_slots());
-        Series::<R> {
-            name,
-            terms: rounded.terms().map(|(m, c)| (c.clone(), factors(m, space, names, harmonics, primed))).collect(),
-        }
-    };
-    let real =
-        |name, f: &Polynomial<R>, primed| series(name, &f.map(|c| R::complex(c.clone(), R::zero())), &names, primed);
-    let all: Result<Vec<_>, Error> = match what {
-        Part::Hamiltonian => kernel().map(|(k, names)| vec![series("K".to_owned(), &k, &names, false)]),
-        Part::Generator => (1..=order).map(|m| Ok(real(format!("S_{{{m}}}"), &generator(m)?, true))).collect(),
-        Part::Direct | Part::Inverse => {
-            let direct = what == Part::Direct;
-            let left = |slot: usize| symbol(&names[slot], if direct { "" } else { "'" });
-            let image = |slot| Ok(real(left(slot), &image(slot, direct)?, direct));
-            (0..2 * space.degrees_of_freedom()).map(image).collect()
-        }
-    };
-    Ok(fragment("", &all?))
 }
 
 /// Estimated width of a product, in points. A command is a letter, but for fractions and for `\mathrm`, `\cos` and `\sin`, whose letters count.
@@ -158,40 +121,8 @@ fn width(text: &str) -> usize {
     sum
 }
 
-/// The variables of a monomial, those of a space or of the modes by `names`.
-fn factors(monomial: Monomial, space: &PhaseSpace, names: &[String], harmonics: Harmonics, primed: bool) -> String {
-    let power = |slot: usize, exponent: u32| match names.get(slot) {
-        None => harmonics.latex(
-            &symbol(space.driven().get(slot - names.len()).copied().unwrap_or_default(), ""),
-            harmonics::signed(exponent),
-        ),
-        Some(name) => match (factor(name, if primed { "'" } else { "" }), exponent) {
-            (base, 1) => base,
-            (base, _) if primed => format!("{{{base}}}^{{{exponent}}}"),
-            (base, _) => format!("{base}^{{{exponent}}}"),
-        },
-    };
-    let powers = (0..SLOTS).map(|slot| (slot, monomial.exponent(slot))).filter(|&(_, exponent)| exponent > 0);
-    powers.map(|(slot, exponent)| power(slot, exponent)).collect()
-}
-
-/// The action of a saddle or of a quartet in brackets, or a name, as LaTeX.
-fn factor(name: &str, prime: &str) -> String {
-    let Some(inner) = name.strip_prefix('(').and_then(|name| name.strip_suffix(')')) else {
-        return symbol(name, prime);
-    };
-    let word = |word: &str| {
-        if matches!(word, "+" | "-") {
-            word.to_owned()
-        } else {
-            word.split('*').map(|name| symbol(name, prime)).collect()
-        }
-    };
-    format!("({})", inner.split(' ').map(word).collect::<Vec<_>>().join(" "))
-}
-
 /// A name as a LaTeX symbol. Greek letters are recognized by name. The text after an underscore, or the digits at the end, become an index.
-fn symbol(name: &str, prime: &str) -> String {
+pub(crate) fn symbol(name: &str, prime: &str) -> String {
     const GREEK: [&str; 24] = [
         "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu",
         "xi", "pi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega", "Gamma", "Omega",

@@ -9,12 +9,14 @@
 //! monomials, so two runs give the same bits. The crate does no I/O and has no global state except its [`threads`], and every type is `Send + Sync`. Brackets follow {q; p} = 1.
 //! Theory: M. Lara, *Short-axis-mode rotation in complex variables* (2017), with its errata.
 //!
-//! The features are on by default: `rayon` computes large products on several threads, `serde` has normal forms as JSON texts, `code` has them as source text.
+//! The features are on by default: `birkhoff` has the normal forms of any Hamiltonian, `rayon` computes large products on several threads, `serde` has normal forms as JSON texts, `code` has
+//! them as source text.
 #![doc = include_str!("../doc/formulas.html")]
-// What only JSON and source texts use is dead without them.
-#![cfg_attr(not(all(feature = "serde", feature = "code")), allow(dead_code))]
+// What only normal forms of any Hamiltonian, JSON and source texts use is dead without them.
+#![cfg_attr(not(all(feature = "birkhoff", feature = "serde", feature = "code")), allow(dead_code))]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+#[cfg(feature = "birkhoff")]
 pub mod birkhoff;
 mod bracket;
 mod calculus;
@@ -37,6 +39,7 @@ mod monomial;
 mod normal_form;
 mod numeric;
 mod parse;
+#[cfg(feature = "birkhoff")]
 pub mod periodic;
 mod polynomial;
 mod product;
@@ -50,6 +53,7 @@ pub mod threads;
 mod triangle;
 mod words;
 
+#[cfg(feature = "birkhoff")]
 pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, PhaseSpace, normalize, normalize_driven, normalize_with};
 pub use coefficient::Coefficient;
 pub use error::Error;

@@ -21,6 +21,7 @@ mod exact_spectrum;
 pub(crate) mod flow;
 #[cfg(feature = "serde")]
 pub(crate) mod json;
+pub(crate) mod latex;
 pub(crate) mod map;
 pub(crate) mod matrix;
 pub(crate) mod mode;

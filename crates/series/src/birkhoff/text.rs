@@ -3,7 +3,7 @@
 use super::{AnglePart, BirkhoffNormalForm};
 use crate::display::{rounded, significant};
 use crate::error::Error;
-use crate::latex::{self, Part};
+use crate::latex::Part;
 use crate::polynomial::Polynomial;
 use crate::real_field::RealField;
 
@@ -116,6 +116,6 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             let variable = Polynomial::variable(slot)?;
             if direct { self.direct(&variable) } else { self.inverse(&variable) }
         };
-        latex::part::<R>((what, self.space(), self.order()), kernel, |m| self.generator(m), image)
+        super::latex::part::<R>((what, self.space(), self.order()), kernel, |m| self.generator(m), image)
     }
 }

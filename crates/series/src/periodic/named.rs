@@ -15,7 +15,7 @@ use crate::birkhoff::{PhaseSpace, check_driven};
 use crate::display::significant;
 use crate::error::Error;
 use crate::harmonics;
-use crate::latex::{self, Part};
+use crate::latex::Part;
 use crate::monomial::MAX_EXPONENT;
 use crate::polynomial::Polynomial;
 use crate::triangle::{Progress, quiet};
@@ -213,7 +213,12 @@ impl DrivenNormalForm {
     pub fn to_latex(&self, what: Part) -> Result<String, Error> {
         let generator = |m| self.real_in_waves(&self.form.transform.generator(m).unwrap_or_default());
         let image = |slot, direct| if direct { self.direct_series(slot) } else { self.inverse_series(slot) };
-        latex::part::<f64>((what, &self.space, self.form.order()), || self.in_actions(), generator, image)
+        crate::birkhoff::latex::part::<f64>(
+            (what, &self.space, self.form.order()),
+            || self.in_actions(),
+            generator,
+            image,
+        )
     }
 
     /// K in the actions, and their names.
