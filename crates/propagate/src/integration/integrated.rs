@@ -8,7 +8,7 @@ use pulp::Arch;
 
 use super::bound::{FLOOR, MeasuredSteps, Profile, ReinterpolatedSteps, with_interpolation};
 use super::expansion::Equations;
-use super::integrator::{KeptSteps, Precision, Runner, Side, Step};
+use super::integrator::{KeptSteps, Precision, Progress, Runner, Side, Step};
 use super::path_series::PathSeries;
 use super::rates::{covered, of_interpolation, rates_of_orbit, rates_of_sources, rates_of_table, too_coarse};
 use super::series::{Row, largest};
@@ -304,9 +304,24 @@ impl Problem {
         precision: Precision,
         stop: &AtomicBool,
     ) -> Result<(Side, StepErrors), Error> {
+        Ok(self.advanced(self.beginning(side), side, (precision, usize::MAX), stop)?.ended())
+    }
+
+    /// An integration before the epoch, 0, or after it, 1, that has not begun.
+    pub(super) fn beginning(&self, side: usize) -> Progress {
+        Progress::new(Runner::new(self.attitude, self.rates, side == 0), &self.equations)
+    }
+
+    /// An integration that goes on to its end, or to a number of steps.
+    pub(super) fn advanced(
+        &self,
+        progress: Progress,
+        side: usize,
+        (precision, pause): (Precision, usize),
+        stop: &AtomicBool,
+    ) -> Result<Progress, Error> {
         let (equations, target) = (&self.equations, self.ends[side]);
-        let runner = Runner::new(self.attitude, self.rates, side == 0);
-        dispatch_few(Arch::new(), KeptSteps { equations, precision, runner, target, stop })
+        dispatch_few(Arch::new(), KeptSteps { equations, precision, progress, target, pause, stop })
     }
 
     /// The motion by some steps; `bounds` are the error bound, and that without the interpolation of a table where this dominates.
@@ -334,17 +349,18 @@ impl Problem {
         needed.then(|| (FINER * relative * self.tolerance / error).clamp(FINEST, *relative))
     }
 
-    /// By steps of this relative error.
+    /// By steps of this relative error. A side ends early where its attitude is unknown.
     fn solved(&self, error: f64, stop: &AtomicBool) -> Result<MeasuredMotion, Error> {
         let precision = Precision::of(error);
-        let [before, after] = [0, 1].map(|side| self.steps(side, precision, stop));
-        let kept = [before?, after?];
-        let [before, after] = [0, 1].map(|side| {
+        let [before, after] = [0, 1].map(|side| self.while_known(side, precision, stop));
+        let ((before, lost_before), (after, lost_after)) = (before?, after?);
+        let kept = [before, after];
+        let [before, after] = [(0, lost_before), (1, lost_after)].map(|(side, lost)| {
             let (Side { steps, .. }, errors) = &kept[side];
-            if steps.len() > 1 {
-                self.measured(steps, (precision, errors), side == 0, stop)
-            } else {
-                Ok(Profile::new())
+            match lost {
+                Some(profile) => Ok(profile),
+                None if steps.len() > 1 => self.measured(steps, (precision, errors), side == 0, stop),
+                None => Ok(Profile::new()),
             }
         });
         self.with_bounds((precision, error), kept, [before?, after?], stop)

@@ -284,27 +284,66 @@ fn compensated(value: &mut f64, rest: &mut f64, change: f64) {
     *value = sum;
 }
 
+/// An integration as far as it has gone, with every step.
+pub(super) struct Progress {
+    pub(super) runner: Runner<4>,
+    /// The start of each step.
+    steps: Vec<Step>,
+    coefficients: Vec<Coefficients>,
+    kept: bool,
+    fast: Option<(f64, usize)>,
+    growth: Option<StepGrowth>,
+}
+
+impl Progress {
+    pub(super) fn new(runner: Runner<4>, equations: &Equations<4>) -> Self {
+        let growth = equations.torques.as_ref().map(|torques| StepGrowth::new(torques.brakes, MOST_STEPS));
+        Self { runner, steps: Vec::new(), coefficients: Vec::new(), kept: true, fast: None, growth }
+    }
+
+    /// The number of steps of the whole integration, from below; none where their number is going to refuse it.
+    pub(super) fn expected(&self, equations: &Equations<4>, target: (f64, f64)) -> Option<f64> {
+        let steps = self.steps.len();
+        let expected = extrapolated(equations, steps, self.runner.time, target);
+        let fast = steps as f64 + by_rotation(&self.runner, target);
+        (self.fast.is_none() && expected <= MOST_STEPS as f64).then_some(expected.max(fast))
+    }
+
+    /// The steps so far, with the state after the last one, as a function that only reads them needs them.
+    pub(super) fn with_last<T>(&mut self, read: impl FnOnce(&[Step]) -> T) -> T {
+        self.steps.push(self.runner.step());
+        let found = read(&self.steps);
+        self.steps.pop();
+        found
+    }
+
+    /// The steps, and the errors that they leave.
+    pub(super) fn ended(mut self) -> (Side, StepErrors) {
+        self.steps.push(self.runner.step());
+        (Side { steps: self.steps, coefficients: self.coefficients }, self.runner.errors)
+    }
+}
+
 /// An integration to a time that keeps every step.
 pub(super) struct KeptSteps<'a> {
     pub(super) equations: &'a Equations<4>,
     pub(super) precision: Precision,
-    pub(super) runner: Runner<4>,
+    pub(super) progress: Progress,
     pub(super) target: (f64, f64),
+    /// It pauses where it has so many steps.
+    pub(super) pause: usize,
     pub(super) stop: &'a AtomicBool,
 }
 
 impl Task for KeptSteps<'_> {
-    /// The steps, and the errors that they leave.
-    type Output = Result<(Side, StepErrors), Error>;
+    type Output = Result<Progress, Error>;
 
     #[inline(always)]
     fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
-        let Self { equations, precision, mut runner, target, stop } = self;
+        let Self { equations, precision, progress, target, pause, stop } = self;
+        let Progress { mut runner, mut steps, mut coefficients, mut kept, mut fast, mut growth } = progress;
         let mut workspace = Workspace::new(equations);
-        let (mut steps, mut coefficients) = (Vec::new(), Vec::new());
-        let (mut kept, mut fast) = (true, None);
-        let mut growth = equations.torques.as_ref().map(|torques| StepGrowth::new(torques.brakes, MOST_STEPS));
-        while runner.time != target {
+        while runner.time != target && steps.len() < pause {
             if steps.len() % AT_ONCE == 0 {
                 going(stop).map_err(|_| Error::Stopped)?;
                 affordable(equations, steps.len(), runner.time, target)?;
@@ -327,8 +366,7 @@ impl Task for KeptSteps<'_> {
                 coefficients = Vec::new();
             }
         }
-        steps.push(runner.step());
-        Ok((Side { steps, coefficients }, runner.errors))
+        Ok(Progress { runner, steps, coefficients, kept, fast, growth })
     }
 }
 
@@ -344,23 +382,32 @@ pub(super) fn next_end<const W: usize>(
     nearest.filter(|knot| knot.0.abs() < target.0.abs()).unwrap_or(target)
 }
 
-/// Refuses an integration whose extrapolated number of steps exceeds [`MOST_STEPS`]. Some of the steps are due to the rotation, and others to the passage of each body. The number of
+/// The number of steps of a whole integration. Some of the steps are due to the rotation, and others to the passage of each body. The number of
 /// each kind grows at least by the least of the factors by which they grow.
+fn extrapolated(equations: &Equations<4>, steps: usize, now: (f64, f64), target: (f64, f64)) -> f64 {
+    // A circle has 0/0 here, which is no minimum.
+    let growth = equations.paths().map(|body| body.passed(target) / body.passed(now));
+    steps as f64 * growth.fold(target.0 / now.0, f64::min)
+}
+
+/// Refuses an integration whose extrapolated number of steps exceeds [`MOST_STEPS`].
 pub(super) fn affordable(
     equations: &Equations<4>,
     steps: usize,
     now: (f64, f64),
     target: (f64, f64),
 ) -> Result<(), Error> {
-    // A circle has 0/0 here, which is no minimum.
-    let growth = equations.paths().map(|body| body.passed(target) / body.passed(now));
-    let growth = growth.fold(target.0 / now.0, f64::min);
-    let whole = steps as f64 * growth;
+    let whole = extrapolated(equations, steps, now, target);
     let bound = MOST_STEPS as f64 * if steps < TYPICAL { HOPELESS } else { 1.0 };
     if steps > 0 && whole > bound || steps >= MOST_STEPS {
         return Err(Error::TooManySteps { steps: whole, bound: MOST_STEPS, reason: String::new() });
     }
     Ok(())
+}
+
+/// The steps to a target that the present rotation needs at least.
+fn by_rotation(runner: &Runner<4>, target: (f64, f64)) -> f64 {
+    (target.0 - runner.time.0).abs() * norm(&runner.rates) / LONGEST_STEP
 }
 
 /// Refuses an integration where a passage has left the body with a rotation that needs too many steps for the rest of the span. `since` is the time from which on it has been so, with the
@@ -370,14 +417,13 @@ fn spun_up(
     target: (f64, f64),
     (since, steps): (Option<(f64, usize)>, usize),
 ) -> Result<Option<(f64, usize)>, Error> {
-    let rate = norm(&runner.rates);
-    let needed = (target.0 - runner.time.0).abs() * rate / LONGEST_STEP;
+    let needed = by_rotation(runner, target);
     if needed <= HOPELESS * MOST_STEPS as f64 {
         return Ok(None);
     }
     let (time, first) = since.unwrap_or((runner.time.0, steps));
     if steps - first >= SUSTAINED {
-        return Err(Error::SpunUp { time, rate, steps: needed, bound: MOST_STEPS });
+        return Err(Error::SpunUp { time, rate: norm(&runner.rates), steps: needed, bound: MOST_STEPS });
     }
     Ok(Some((time, first)))
 }

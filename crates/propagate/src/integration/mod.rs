@@ -2,7 +2,7 @@
 //!
 //! A step expands the motion about its start ([`expansion`], [`products`]) and is as long as the last two coefficients allow (Jorba and Zou, Exp. Math. 14 (2005) 99, eqs.
 //! 3-7 and 3-8). The steps are kept ([`integrator`]), and a time is evaluated by the series of the step that contains it ([`dense`]). Integrations from
-//! displaced states measure the error ([`bound`]). docs/speed.md has its time beside that of heyoka, which
+//! displaced states measure the error ([`bound`]), also before the end, so that a motion of which nothing is known any more ends ([`judged`]). docs/speed.md has its time beside that of heyoka, which
 //! has no bound (`make rivals-integration`).
 //!
 //! Members of an ensemble are integrated together, each in a lane of a vector ([`several`], [`lane_tasks`], [`lanes`], [`lane_series`]).
@@ -17,6 +17,7 @@ mod growth;
 pub(crate) mod integrated;
 pub(crate) mod integrator;
 mod interpolation;
+mod judged;
 mod lane_series;
 mod lane_tasks;
 mod lanes;

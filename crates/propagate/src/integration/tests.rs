@@ -1,3 +1,4 @@
+use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
 
 use pulp::Arch;
@@ -11,7 +12,7 @@ use super::prospect::prospect;
 use super::series::{Row, norm};
 use super::several::several;
 use super::step_errors::moved;
-use crate::error::STEP_BYTES;
+use crate::error::{Error, STEP_BYTES};
 use crate::input::options::Served;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch_few};
 use crate::{Body, Method, Orbit, Scene, State};
@@ -217,4 +218,42 @@ fn motions_in_lanes_are_those_that_are_integrated_alone() {
             together.error
         );
     }
+}
+
+#[test]
+fn a_chaotic_motion_ends_soon_after_the_time_from_which_on_nothing_is_known() {
+    // Hyperion, wobbling.
+    let orbit = Orbit::new(1.0, 0.123).expect("an orbit");
+    let chaotic = scene([0.579, 0.875, 1.0], [0.1, 0.2, 1.4]).orbit(orbit).span(3.0, 1e5).tolerance(1e-8);
+    let (problem, going) = (Problem::new(&chaotic, "").expect("a problem"), AtomicBool::new(false));
+    let precision = Precision::of(problem.first_error());
+    let ((side, _), profile) = problem.while_known(1, precision, &going).expect("a motion");
+    let profile = profile.expect("half a turn");
+    let (known, lost) = (profile.iter().rfind(|(_, bound)| *bound < PI).expect("a known part").0, profile.last());
+    let end = side.steps[side.steps.len() - 1].time.0;
+    assert!(lost.is_some_and(|(_, bound)| *bound == PI) && known > 50.0 && end < 5e3, "{known} {end}");
+    // The whole integration has thirty times as many steps, of which these are the first.
+    let (whole, _) = problem.steps(1, precision, &going).expect("a motion");
+    assert!(whole.steps.len() > 30 * side.steps.len(), "{} and {}", whole.steps.len(), side.steps.len());
+    assert!(side.steps.iter().zip(&whole.steps).all(|(one, other)| same(one, other)));
+    // What is refused says this time.
+    let refused = Integrated::new(&chaotic, "", &going).expect_err("chaos");
+    assert!(matches!(refused, Error::Unpredictable { known: [first, last], .. } if first == 3.0 && last > 50.0));
+}
+
+#[test]
+fn a_motion_of_known_attitude_has_the_steps_that_it_has_without_judgements() {
+    let fast = scene([0.5, 0.8, 1.0], [0.1, 0.2, 1.0]).orbit(Orbit::new(0.01, 0.1).expect("an orbit"));
+    let problem = Problem::new(&fast.span(3.0, 3e4).tolerance(1e-6), "").expect("a problem");
+    let (precision, going) = (Precision::of(problem.first_error()), AtomicBool::new(false));
+    let ((judged, _), lost) = problem.while_known(1, precision, &going).expect("a motion");
+    let (whole, _) = problem.steps(1, precision, &going).expect("a motion");
+    assert!(lost.is_none() && whole.steps.len() > 1 << 15 && judged.steps.len() == whole.steps.len());
+    assert!(judged.coefficients == whole.coefficients);
+    assert!(judged.steps.iter().zip(&whole.steps).all(|(one, other)| same(one, other)));
+}
+
+/// Whether two steps begin with the same bits.
+fn same(one: &Step, other: &Step) -> bool {
+    (one.time, one.attitude, one.rates) == (other.time, other.attitude, other.rates)
 }
