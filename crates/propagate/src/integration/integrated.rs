@@ -8,7 +8,7 @@ use pulp::Arch;
 
 use super::bound::{FLOOR, MeasuredSteps, Profile, ReinterpolatedSteps, with_interpolation};
 use super::expansion::Equations;
-use super::integrator::{KeptSteps, Precision, Progress, Runner, Side, Step};
+use super::integrator::{KeptSteps, Precision, Runner, Side, Step, StepsSoFar};
 use super::path_series::PathSeries;
 use super::rates::{covered, of_interpolation, rates_of_orbit, rates_of_sources, rates_of_table, too_coarse};
 use super::series::{Row, largest};
@@ -308,18 +308,18 @@ impl Problem {
     }
 
     /// An integration before the epoch, 0, or after it, 1, that has not begun.
-    pub(super) fn beginning(&self, side: usize) -> Progress {
-        Progress::new(Runner::new(self.attitude, self.rates, side == 0), &self.equations)
+    pub(super) fn beginning(&self, side: usize) -> StepsSoFar {
+        StepsSoFar::new(Runner::new(self.attitude, self.rates, side == 0), &self.equations)
     }
 
     /// An integration that goes on to its end, or to a number of steps.
     pub(super) fn advanced(
         &self,
-        progress: Progress,
+        progress: StepsSoFar,
         side: usize,
         (precision, pause): (Precision, usize),
         stop: &AtomicBool,
-    ) -> Result<Progress, Error> {
+    ) -> Result<StepsSoFar, Error> {
         let (equations, target) = (&self.equations, self.ends[side]);
         dispatch_few(Arch::new(), KeptSteps { equations, precision, progress, target, pause, stop })
     }

@@ -285,7 +285,7 @@ fn compensated(value: &mut f64, rest: &mut f64, change: f64) {
 }
 
 /// An integration as far as it has gone, with every step.
-pub(super) struct Progress {
+pub(super) struct StepsSoFar {
     pub(super) runner: Runner<4>,
     /// The start of each step.
     steps: Vec<Step>,
@@ -295,7 +295,7 @@ pub(super) struct Progress {
     growth: Option<StepGrowth>,
 }
 
-impl Progress {
+impl StepsSoFar {
     pub(super) fn new(runner: Runner<4>, equations: &Equations<4>) -> Self {
         let growth = equations.torques.as_ref().map(|torques| StepGrowth::new(torques.brakes, MOST_STEPS));
         Self { runner, steps: Vec::new(), coefficients: Vec::new(), kept: true, fast: None, growth }
@@ -328,7 +328,7 @@ impl Progress {
 pub(super) struct KeptSteps<'a> {
     pub(super) equations: &'a Equations<4>,
     pub(super) precision: Precision,
-    pub(super) progress: Progress,
+    pub(super) progress: StepsSoFar,
     pub(super) target: (f64, f64),
     /// It pauses where it has so many steps.
     pub(super) pause: usize,
@@ -336,12 +336,12 @@ pub(super) struct KeptSteps<'a> {
 }
 
 impl Task for KeptSteps<'_> {
-    type Output = Result<Progress, Error>;
+    type Output = Result<StepsSoFar, Error>;
 
     #[inline(always)]
     fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
         let Self { equations, precision, progress, target, pause, stop } = self;
-        let Progress { mut runner, mut steps, mut coefficients, mut kept, mut fast, mut growth } = progress;
+        let StepsSoFar { mut runner, mut steps, mut coefficients, mut kept, mut fast, mut growth } = progress;
         let mut workspace = Workspace::new(equations);
         while runner.time != target && steps.len() < pause {
             if steps.len() % AT_ONCE == 0 {
@@ -366,7 +366,7 @@ impl Task for KeptSteps<'_> {
                 coefficients = Vec::new();
             }
         }
-        Ok(Progress { runner, steps, coefficients, kept, fast, growth })
+        Ok(StepsSoFar { runner, steps, coefficients, kept, fast, growth })
     }
 }
 
