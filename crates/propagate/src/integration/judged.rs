@@ -59,7 +59,7 @@ fn next(profile: &Profile) -> f64 {
         return NEXT[1];
     };
     let growth = (bound / smaller).ln() / (time - half);
-    let lost = 1.0 + (PI / bound).ln() / (growth * time);
     // Without growth it is infinite, and with a single comparison no number.
-    (LATER * lost).min(NEXT[1]).max(NEXT[0])
+    let lost = 1.0 + (PI / bound).ln() / (growth * time);
+    if lost.is_nan() { NEXT[1] } else { (LATER * lost).clamp(NEXT[0], NEXT[1]) }
 }
