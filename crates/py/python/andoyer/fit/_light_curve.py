@@ -277,7 +277,7 @@ def _state_of(scene: Scene, axes: Array, epoch: Any) -> States:
 
 
 ADVICE = (
-    "Try more starts, other periods, shape=True, curves with their own factors or the other law of scattering; check sigma, the directions, "
+    'Try more starts, other periods, shape=True or "facets", curves with their own factors or the other law of scattering; check sigma, the directions, '
     "and that the brightnesses are intensities, not magnitudes."
 )
 BRIGHTEST, FAINTEST = 3.0, 30.0
