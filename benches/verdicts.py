@@ -31,7 +31,7 @@ LAWS = ("lambert", "lommel-seeliger", "lommel-seeliger + 0.1 lambert")
 PARTS = ("periods", "pole", "mode")
 ANSWERS = ("secure right", "secure wrong", "ambiguous", "not determined")
 NONE = "–"
-AXES_ERROR, NEAR_POLE, HALF_TURN, STARTS, SHAPE = 0.1, 10.0, 0.5, 20_000, "facets"
+AXES_ERROR, NEAR_POLE, HALF_TURN, STARTS, SHAPE = 0.1, 10.0, 0.5, 20_000, True
 
 
 # Bodies
