@@ -1,7 +1,7 @@
 """Light curves of asteroids with published periods, fitted as a user would: a start that knows a range of periods alone.
 
     python tests/stress/observed.py tc3             2008 TC3: periods, mode and axes as published, another shape, and the sampling of the night of its impact; minutes
-    python tests/stress/observed.py ariadne FILE    43 Ariadne: the relative light curves of the DAMIT example (test_lcs_rel, Kaasalainen and Ďurech, CC BY 4.0), which are not in this repository; a quarter of an hour
+    python tests/stress/observed.py ariadne FILE    43 Ariadne: the relative light curves of the DAMIT example (test_lcs_rel, Kaasalainen and Ďurech, CC BY 4.0), which are not in this repository; minutes
 
 Prints the fit and ends with status 1 if a period is not within its error of the published one, or the mode is another one.
 

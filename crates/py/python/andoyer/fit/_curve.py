@@ -90,8 +90,8 @@ class Curve:
         axes = states.axes.copy()
         axes[:, 1:] *= np.exp(full[:, 6:])
         if self.spin is not None:
-            # The rotation stays about the axis of greatest inertia.
-            axes[:, self.spin] = axes.min(axis=1)
+            # A rotation about another axis than that of greatest inertia is no state of this curve.
+            rates = np.where((axes[:, self.spin] <= axes.min(axis=1))[:, None], rates, np.nan)
         attitudes = product(states.attitudes, exponential(full[:, :3]))
         return States(axes, attitudes / np.linalg.norm(attitudes, axis=1, keepdims=True), rates)
 

@@ -102,8 +102,8 @@ def light_curve(
     scattering : {"lommel-seeliger", "geometric"}, optional
         Law of scattering, as for `brightness`.
     shape : bool or "facets", optional
-        If True, the axis ratios b/a and c/a are fitted too. With "facets" the body may also differ from the ellipsoid: `Fit.facets`. Each of 42 facets gets an area of its own, with a prior deviation of 50 % from that of the
-        ellipsoid, which is a part of χ²: for bodies in nature, which are no ellipsoids. Needs ``scattering="lommel-seeliger"``.
+        If True, the axis ratios b/a and c/a are fitted too. With "facets" the body, as those in nature, may also differ from the ellipsoid: each of 42 facets gets an area of its own (`Fit.facets`). Their deviations from
+        those of the ellipsoid have the prior deviation 50 %, which is a part of χ². Logarithms of the brightness are then fitted. Needs ``scattering="lommel-seeliger"``.
     mode : {None, "principal-axis"}, optional
         "principal-axis" holds the body in rotation about its axis of greatest inertia: period, pole and phase are fitted. By default any motion is fitted, and simple rotation too, as a
         hypothesis beside it: `Fit.simple_rotation`.
@@ -127,7 +127,8 @@ def light_curve(
     ------
     InputError
         Fewer points than parameters; a semi-axis, a brightness or a `sigma` that is not from 1e-40 to 1e40; no start with a motion over the times; a shortest period above the longest; a direction of length 0; Sun and observer on opposite sides; a first
-        TimeDelta other than 0; a `scene` with an orbit or at rest; both brightness and magnitudes, or neither; distances with times that have no unit; another mode.
+        TimeDelta other than 0; a `scene` with an orbit or at rest; both brightness and magnitudes, or neither; distances with times that have no unit; another mode or shape; facets with another law of scattering, or with an
+        intensity below ten times its `sigma`.
 
     Warns
     -----

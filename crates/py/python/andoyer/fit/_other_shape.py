@@ -36,7 +36,9 @@ def other_shapes(curve: Curve, states: States, square: float) -> OtherShapes:
     """The series beside each of some simple rotations, or their facets. `square`: χ² of constant brightness in each curve."""
     if isinstance(curve, Facets):
         residuals, jacobians = curve.residuals(states)
-        return OtherShapes(np.sum(residuals**2, axis=1), residuals[:, : len(curve.times)], curve.members.shape[1] + jacobians.shape[1])
+        return OtherShapes(
+            np.nan_to_num(np.sum(residuals**2, axis=1), nan=np.inf), residuals[:, : len(curve.times)], curve.members.shape[1] + jacobians.shape[1]
+        )
     root = np.sqrt(curve.weights if curve.logarithms else curve.weights * curve.brightness**2)
     deviation = AMPLITUDE * np.sqrt(square / np.sum(root**2))
     change = 2 * (curve.times - curve.times.min()) / max(float(np.ptp(curve.times)), 1e-300) - 1

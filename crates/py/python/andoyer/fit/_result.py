@@ -93,9 +93,9 @@ class Fit:
     residuals: Array
     """Measured minus model: rotation vectors about body axes, shape (n, 3), in rad; or brightnesses or magnitudes as given, shape (n,)."""
     chi_square: float
-    """Sum of the squared residuals over their variances."""
+    """Sum of the squared residuals over their variances; with facets of the logarithms, and with the squares of their prior."""
     degrees_of_freedom: int
-    """Number of data minus number of parameters that they determine."""
+    """Number of data minus number of parameters that they determine. Facets are none: each brings a row of its prior."""
     message: str
     """Sentences that say if the fit is bad, which other minima lie within Δχ² = 25 of the best, and which directions the data do not determine."""
     times: Any

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from andoyer._core import Ensemble
 from andoyer._quaternions import Array
 from andoyer.fit._curve import Curve, States
-from andoyer.fit._search import Population, improve, random_spins
+from andoyer.fit._search import Population, best, improve, random_spins
 from andoyer.fit._steps import moments_of_ellipsoid
 
 ROUNDS = ((64, 300, 16, 8), (16, 800, 40, 8), (4, 2000, 80, 10))
@@ -227,10 +227,10 @@ def from_spectrum(curve: Curve, axes: Array, periods: tuple[float, float], gener
 
 
 def refined(curve: Curve, population: Population) -> Population:
-    """The best of the states that fit an ellipsoid, with the facets of the curve if it has any, which take ten times as long."""
+    """The best of the states of an ellipsoid, of either mode as many, with the facets of the curve if it has any: a step with them takes ten times as long."""
     if curve.rough is curve:
         return population
-    states = lowest(population, max(len(population.chi_squares) // REFINED, 1)).states
+    states = best(population, max(len(population.chi_squares) // REFINED, 2)).states
     return improve(curve, Population(states, curve.chi_squares(states)), REFINING)
 
 
