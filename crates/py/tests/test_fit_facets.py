@@ -126,6 +126,24 @@ def test_a_fitted_rotation_stays_about_the_axis_of_greatest_inertia():
     assert np.all(drawn.states.moments[:, 2] >= drawn.states.moments.max(axis=1)) and np.isfinite(drawn.delta_chi_square).all()
 
 
+def test_blas_has_one_thread_while_facets_are_solved_for(monkeypatch):
+    controller = pytest.importorskip("threadpoolctl").ThreadpoolController()
+    truth, times, given = observed(TUMBLING)
+    seen, of = [], _facets.Facets._of
+
+    def noted(curve, *states):
+        seen.append({library["num_threads"] for library in controller.info() if library["user_api"] == "blas"})
+        return of(curve, *states)
+
+    monkeypatch.setattr(_facets.Facets, "_of", noted)
+    with controller.limit(limits=2, user_api="blas"):
+        found = fit.light_curve(SIDES, times, **given, shape="facets", scene=truth)
+        during = len(seen)
+        found.draws(3, rng=1)
+        after = {library["num_threads"] for library in controller.info() if library["user_api"] == "blas"}
+    assert during and len(seen) > during and all(threads <= {1} for threads in seen) and after <= {2}
+
+
 def test_other_shapes_and_laws_are_refused():
     truth, times, given = observed(TUMBLING)
     bright = np.full(len(times), 1.0)

@@ -301,15 +301,13 @@ impl StepsSoFar {
         Self { runner, steps: Vec::new(), coefficients: Vec::new(), kept: true, fast: None, growth }
     }
 
-    /// The number of steps of the whole integration, from below; none where their number is going to refuse it.
-    pub(super) fn expected(&self, equations: &Equations<4>, target: (f64, f64)) -> Option<f64> {
+    /// The number of steps of the whole integration, from below.
+    pub(super) fn expected(&self, equations: &Equations<4>, target: (f64, f64)) -> f64 {
         let steps = self.steps.len();
-        let expected = extrapolated(equations, steps, self.runner.time, target);
-        let fast = steps as f64 + by_rotation(&self.runner, target);
-        (self.fast.is_none() && expected <= MOST_STEPS as f64).then_some(expected.max(fast))
+        extrapolated(equations, steps, self.runner.time, target).max(steps as f64 + by_rotation(&self.runner, target))
     }
 
-    /// The steps so far, with the state after the last one, as a function that only reads them needs them.
+    /// What a function reads of the steps so far, with the state after the last one.
     pub(super) fn with_last<T>(&mut self, read: impl FnOnce(&[Step]) -> T) -> T {
         self.steps.push(self.runner.step());
         let found = read(&self.steps);

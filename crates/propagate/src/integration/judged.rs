@@ -1,8 +1,8 @@
 //! An integration that ends where nothing is known any more.
 //!
 //! After a number of steps the error bound so far is measured as that of a whole span. If it is half a turn, that over the span is too: there the displacements have the errors of more steps,
-//! and grow for a longer time. The next judgement is due where the growth so far leads to half a turn. A motion whose bound does not grow exponentially
-//! is judged for the last time after 1/16 of its steps at most, which takes 1/14 of the time of its error bound at most. It has the bits that it has without judgements.
+//! and grow for a longer time. The next judgement is due where the growth so far leads to half a turn. The last one is after 1/16 of the steps at most, so that all of them together take
+//! less than a fifth of the time of the error bound. A motion that is served has the bits that it has without judgements.
 
 use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
@@ -15,9 +15,8 @@ use crate::error::Error;
 
 /// Steps before the first judgement, some milliseconds.
 const FIRST: usize = 1 << 11;
-/// An integration is judged only if its whole number of steps exceeds those so far by this factor, where the growth leads to half a turn before the judgement and otherwise: the judgement of
-/// more would cost as much as its end.
-const WORTHWHILE: [f64; 2] = [4.0, 16.0];
+/// The whole number of steps exceeds those so far by this factor, or there is no judgement.
+const WORTHWHILE: f64 = 16.0;
 /// The next judgement is due after this many times the number of steps that is predicted,
 const LATER: f64 = 1.2;
 /// and between these many times those so far.
@@ -30,14 +29,13 @@ impl Problem {
     /// The steps before the epoch, 0, or after it, 1, and the errors that they leave. They end at the end of the span, or where the error bound has reached half a turn.
     pub(super) fn while_known(&self, side: usize, precision: Precision, stop: &AtomicBool) -> Result<Known, Error> {
         let mut pause = if self.equations.is_free() { usize::MAX } else { FIRST };
-        let (mut progress, mut worthwhile) = (self.beginning(side), WORTHWHILE[1]);
+        let mut progress = self.beginning(side);
         loop {
             progress = self.advanced(progress, side, (precision, pause), stop)?;
             if progress.runner.time == self.ends[side] {
                 return Ok((progress.ended(), None));
             }
-            let expected = progress.expected(&self.equations, self.ends[side]);
-            if expected.is_none_or(|expected| expected < worthwhile * pause as f64) {
+            if progress.expected(&self.equations, self.ends[side]) < WORTHWHILE * pause as f64 {
                 pause = pause.saturating_mul(2);
                 continue;
             }
@@ -46,9 +44,7 @@ impl Problem {
             if profile.last().is_some_and(|(_, bound)| *bound >= PI) {
                 return Ok((progress.ended(), Some(profile)));
             }
-            let factor = next(&profile);
-            pause = (pause as f64 * factor) as usize;
-            worthwhile = if factor < NEXT[1] { WORTHWHILE[0] } else { WORTHWHILE[1] };
+            pause = (pause as f64 * next(&profile)) as usize;
         }
     }
 }

@@ -239,6 +239,9 @@ fn a_chaotic_motion_ends_soon_after_the_time_from_which_on_nothing_is_known() {
     // What is refused says this time.
     let refused = Integrated::new(&chaotic, "", &going).expect_err("chaos");
     assert!(matches!(refused, Error::Unpredictable { known: [first, last], .. } if first == 3.0 && last > 50.0));
+    // So does a span of 1.8 times the allowed steps: a shorter one would be refused too.
+    let refused = Integrated::new(&chaotic.span(3.0, 2.3e6), "", &going).expect_err("chaos");
+    assert!(matches!(refused, Error::Unpredictable { known: [_, last], .. } if last > 50.0), "{refused}");
 }
 
 #[test]

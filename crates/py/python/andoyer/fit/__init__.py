@@ -1,6 +1,6 @@
 """Fits of states to data: `attitudes` fits measured attitudes, and `light_curve` fits brightnesses of an ellipsoid. Both return a `Fit`. `clones` draws states from published values.
 
-The module needs SciPy, which ``pip install scipy`` installs; pictures need matplotlib.
+The module needs SciPy, which ``pip install scipy`` installs; facets need threadpoolctl too, and pictures matplotlib. ``pip install andoyer[fit]`` installs the first two.
 """
 
 from andoyer.fit._attitudes import attitudes

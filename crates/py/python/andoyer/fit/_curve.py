@@ -8,7 +8,7 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -161,21 +161,25 @@ class Curve:
         value: Array = with_derivatives(*seen, self.scattering, derivatives=False).value[0]
         return value
 
-    def _at(self, times: Array, sun: Array, observer: Array) -> "Curve":
+    def _at(self, times: Array, sun: Array, observer: Array) -> Self:
         return replace(self, times=times, sun=sun, observer=observer)
 
     def _model(self, states: States) -> tuple[Array, Array, Array]:
         """Brightnesses, their derivatives by a step, shape (m, k, n), and the factors of the curves."""
         ensemble = self._ensemble(states)
         found = with_derivatives(*self._seen(states, ensemble.attitude(self.times)), self.scattering, shape=self.shape)
-        by_state = np.einsum("imn,mnij->mjn", found.by_turn, ensemble.partials(self.times).attitude)
+        by_step = self._by_step(states, ensemble.partials(self.times).attitude, found.by_turn, found.by_shape)
+        return found.value, by_step, self.factors(found.value)
+
+    def _by_step(self, states: States, partials: Array, by_turn: Array, by_shape: Array) -> Array:
+        """Derivatives by the free components of a step, shape (m, k, n), from those by a rotation about body axes and by the shape, in leading axes, and from the partials of the attitudes."""
+        by_state = np.einsum("imn,mnij->mjn", by_turn, partials)
         by_state[:, 3:6] *= np.linalg.norm(states.rates, axis=1)[:, None, None]
         by_step = by_state[:, :6]
         if self.shape:
             by_logarithm = by_state[:, 6:] * moments_of_ellipsoid(states.axes)[:, :, None]
-            by_shape = np.swapaxes(logarithms_by_shape(states.axes), 1, 2) @ by_logarithm + np.moveaxis(found.by_shape, 0, 1)
-            by_step = np.concatenate([by_step, by_shape], axis=1)
-        return found.value, by_step[:, self.columns], self.factors(found.value)
+            by_step = np.concatenate([by_step, np.swapaxes(logarithms_by_shape(states.axes), 1, 2) @ by_logarithm + np.moveaxis(by_shape, 0, 1)], axis=1)
+        return by_step[:, self.columns]
 
     def _relative(self, value: Array, by_step: Array) -> tuple[Array, Array]:
         """Derivatives of the logarithms of the brightnesses, shape (m, k, n), and their means over each curve, shape (m, k, c), which the factors take up."""

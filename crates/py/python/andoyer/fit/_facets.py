@@ -11,16 +11,18 @@ data is 2.4 in the median and 584 at most for ellipsoids, 0.94 and 5.4 with face
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, fields
-from typing import NamedTuple
+from functools import cache
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from andoyer._extra import extra
 from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.fit._curve import Curve, States
 from andoyer.fit._scattering import with_derivatives
-from andoyer.fit._steps import logarithms_by_shape, moments_of_ellipsoid
 
 DEVIATION = 0.5
 """Prior standard deviation of the part by which a facet is larger than that of the ellipsoid."""
@@ -115,10 +117,7 @@ class Facets(Curve):
         attitudes = self._ensemble(states).attitude(self.times)
         found, known = np.full(len(attitudes), np.inf), np.isfinite(attitudes).all(axis=(1, 2))
         if known.any():
-            states = states.part(np.flatnonzero(known))
-            axes, sun, observer = self._seen(states, attitudes[known])
-            ellipsoid = with_derivatives(axes, sun, observer, self.scattering, derivatives=False).value
-            found[known] = self._solved(states.axes, _lit(states.axes, ellipsoid, sun, observer)).chi_squares
+            found[known] = self._of(states.part(np.flatnonzero(known)), attitudes[known]).chi_squares
         return found
 
     def residuals(self, states: States) -> tuple[Array, Array]:
@@ -149,60 +148,43 @@ class Facets(Curve):
 
     def elsewhere(self, state: States, times: Array, sun: Array, observer: Array) -> Array:
         """The brightness of a state with the facets of these data, at other times and directions."""
-        parts = self._of(state).parts
+        parts = self._of(state, self._ensemble(state).attitude(self.times)).parts
         there = self._at(times, sun, observer)
-        axes, sun, observer = there._seen(state, there._ensemble(state).attitude(times))
-        ellipsoid = with_derivatives(axes, sun, observer, self.scattering, derivatives=False).value
-        value: Array = _bright(_lit(state.axes, ellipsoid, sun, observer), parts)[0]
+        value: Array = _bright(there._lit(state, there._ensemble(state).attitude(times)), parts)[0]
         return value
 
     def facets(self, state: States) -> FacetAreas:
         """The facets of a state."""
         areas = _areas(state.axes)[0]
-        return FacetAreas(NORMALS, areas / areas.sum() * (1 + self._of(state).parts[0]))
+        return FacetAreas(NORMALS, areas / areas.sum() * (1 + self._of(state, self._ensemble(state).attitude(self.times)).parts[0]))
 
-    def _of(self, state: States) -> Solved:
-        axes, sun, observer = self._seen(state, self._ensemble(state).attitude(self.times))
-        ellipsoid = with_derivatives(axes, sun, observer, self.scattering, derivatives=False).value
-        return self._solved(state.axes, _lit(state.axes, ellipsoid, sun, observer))
+    def _of(self, states: States, attitudes: Array) -> Solved:
+        return self._solved(states.axes, self._lit(states, attitudes))
+
+    def _lit(self, states: States, attitudes: Array) -> Lit:
+        """What the directions light."""
+        axes, sun, observer = self._seen(states, attitudes)
+        return _lit(states.axes, with_derivatives(axes, sun, observer, self.scattering, derivatives=False).value, sun, observer)
 
     def _with_slopes(self, states: States, attitudes: Array, partials: Array) -> Slopes:
         axes, sun, observer = self._seen(states, attitudes)
-        found = with_derivatives(axes, sun, observer, self.scattering, shape=True)
-        lit = _lit(states.axes, found.value, sun, observer)
+        ellipsoid = with_derivatives(axes, sun, observer, self.scattering, shape=True)
+        lit = _lit(states.axes, ellipsoid.value, sun, observer)
         solved = self._solved(states.axes, lit)
         # Where the brightness is the least that is allowed, it is that of the ellipsoid but for a factor.
         free = solved.value > LEAST * lit.ellipsoid
-        lit = lit._replace(added=lit.added * free[..., None])
-        weights = (_areas(states.axes) * solved.parts)[:, None, :] * free[..., None]
-        # ∂/∂l of l s/(l + s) is (s/(l + s))². A direction s about body axes turns by s × θ: n·(s × θ) = θ·(n × s).
-        over = np.where((lit.sun > 0) & (lit.observer > 0), 1 / (lit.sun + lit.observer + 1e-300), 0.0)
-        turns = [
-            np.cross(((other * over) ** 2 * weights) @ NORMALS, np.moveaxis(direction, 0, -1))
-            for other, direction in ((lit.observer, sun), (lit.sun, observer))
-        ]
-        by_state = np.einsum("mni,mnij->mjn", np.where(free, 1.0, LEAST)[..., None] * np.moveaxis(found.by_turn, 0, -1) + turns[0] + turns[1], partials)
-        by_state[:, 3:6] *= np.linalg.norm(states.rates, axis=1)[:, None, None]
-        by_step = by_state[:, :6]
-        closed, of_closed = _closed(states.axes), np.zeros((len(states.axes), 8, 4))
-        by_logarithm = by_state[:, 6:] * moments_of_ellipsoid(states.axes)[:, :, None]
-        of_areas = _slopes_of_areas(states.axes)
-        by_facets = (lit.added * solved.parts[:, None, :]) @ of_areas
-        of_surface = np.swapaxes(of_areas, 1, 2) @ (_areas(states.axes) / _areas(states.axes).sum(axis=1, keepdims=True))[..., None]
-        of_closed[:, 6:] = np.swapaxes((closed * solved.parts[:, None, :]) @ (of_areas - np.swapaxes(of_surface, 1, 2)), 1, 2)
-        by_shape = (
-            np.swapaxes(logarithms_by_shape(states.axes), 1, 2) @ by_logarithm
-            + np.where(free, 1.0, LEAST)[:, None] * np.moveaxis(found.by_shape, 0, 1)
-            + np.swapaxes(by_facets, 1, 2)
-        )
-        by_step = np.concatenate([by_step, by_shape], axis=1)
-        relative, root = by_step[:, self.columns] / solved.value[:, None], np.sqrt(self.weights)
+        kept, lit = np.where(free, 1.0, LEAST), lit._replace(added=lit.added * free[..., None])
+        by_turn = kept * ellipsoid.by_turn + _turned(lit, (_areas(states.axes) * solved.parts)[:, None, :] * free[..., None], (sun, observer))
+        by_area = _slopes_of_areas(states.axes)
+        by_shape = kept * ellipsoid.by_shape + np.moveaxis((lit.added * solved.parts[:, None, :]) @ by_area, -1, 0)
+        relative, root = self._by_step(states, partials, by_turn, by_shape) / solved.value[:, None], np.sqrt(self.weights)
         mean = self._mean(relative)
         slopes = (relative - mean @ self.members.T) * root
         columns = lit.added * (root / solved.value)[..., None]
-        matrix = self._matrix(columns) + solved.prior
+        matrix, of_closed = self._matrix(columns) + solved.prior, np.zeros((len(states.axes), 8, 4))
+        of_closed[:, 6:] = np.swapaxes(_closed_by_shape(states.axes, solved.parts, by_area), 1, 2)
         of_closed = of_closed[:, self.columns]
-        right = slopes @ columns + of_closed @ closed
+        right = slopes @ columns + of_closed @ _closed(states.axes)
         return Slopes(solved, slopes, mean, columns, matrix, np.swapaxes(np.linalg.solve(matrix, np.swapaxes(right, 1, 2)), 1, 2), of_closed)
 
     def _solved(self, axes: Array, lit: Lit) -> Solved:
@@ -254,13 +236,23 @@ class Facets(Curve):
         return mean
 
 
+def one_thread(curve: Curve) -> AbstractContextManager[Any]:
+    """Where facets are solved for, BLAS has one thread: its products are small, and the states are on threads of our own. With more of its own a step takes three times as long."""
+    return _blas().limit(limits=1, user_api="blas") if isinstance(curve, Facets) else nullcontext()  # type: ignore[no-any-return]
+
+
+@cache
+def _blas() -> Any:
+    return extra("threadpoolctl", 'shape="facets"').ThreadpoolController()
+
+
 def with_facets(curve: Curve) -> Facets:
     """The same data with facets, and with the axis ratios free. Intensities become logarithms, with the errors σ over the intensity.
 
     Raises
     ------
     InputError
-        An intensity below ten σ: the mean of its logarithm is that of the truth only up to σ²/2 over the square, and that of a weighted mean up to 3/2 of it.
+        An intensity I below ten σ. Its logarithm is too small by (σ/I)²/2 in the mean. The weight is larger where noise makes I larger, so a weighted mean is too large by (σ/I)².
     """
     if not curve.logarithms:
         faint = np.flatnonzero(curve.weights * curve.brightness**2 < FAINTEST**2)
@@ -288,6 +280,23 @@ def _slopes_of_areas(axes: Array) -> Array:
     """Derivatives of the logarithms of the areas by those of b/a and c/a, shape (m, f, 2)."""
     parts = axes[:, None, :] ** 2 * NORMALS**2
     slopes: Array = 2 - 4 * parts[:, :, 1:] / parts.sum(axis=-1, keepdims=True)
+    return slopes
+
+
+def _turned(lit: Lit, weights: Array, directions: tuple[Array, Array]) -> Array:
+    """Derivatives of the sum of all facets by a small rotation of the attitude about body axes, in a leading axis of three."""
+    # ∂/∂l of l s/(l + s) is (s/(l + s))². A direction s about body axes turns by s × θ: n·(s × θ) = θ·(n × s).
+    over = np.where((lit.sun > 0) & (lit.observer > 0), 1 / (lit.sun + lit.observer + 1e-300), 0.0)
+    pairs = zip((lit.observer, lit.sun), directions)
+    turns = [np.cross(((other * over) ** 2 * weights) @ NORMALS, np.moveaxis(direction, 0, -1)) for other, direction in pairs]
+    return np.moveaxis(turns[0] + turns[1], -1, 0)
+
+
+def _closed_by_shape(axes: Array, parts: Array, by_area: Array) -> Array:
+    """Derivatives of the rows of the closed surface by the logarithms of b/a and c/a at given parts, shape (m, 4, 2)."""
+    areas = _areas(axes)
+    of_surface = np.swapaxes(by_area, 1, 2) @ (areas / areas.sum(axis=1, keepdims=True))[..., None]
+    slopes: Array = (_closed(axes) * parts[:, None, :]) @ (by_area - np.swapaxes(of_surface, 1, 2))
     return slopes
 
 

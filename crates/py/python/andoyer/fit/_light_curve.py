@@ -14,7 +14,7 @@ from andoyer._extra import extra
 from andoyer._quaternions import Array, angle_between, product
 from andoyer._refusal import refusal
 from andoyer.fit._curve import Curve, States
-from andoyer.fit._facets import with_facets
+from andoyer.fit._facets import one_thread, with_facets
 from andoyer.fit._given import enough, generator_of, scene_of, shaped, span, whole_number
 from andoyer.fit._magnitudes import POGSON, ZeroPoints
 from andoyer.fit._message import composed, largest_reduced, rivals
@@ -103,7 +103,8 @@ def light_curve(
         Law of scattering, as for `brightness`.
     shape : bool or "facets", optional
         If True, the axis ratios b/a and c/a are fitted too. With "facets" the body, as those in nature, may also differ from the ellipsoid: each of 42 facets gets an area of its own (`Fit.facets`). Their deviations from
-        those of the ellipsoid have the prior deviation 50 %, which is a part of χ². Logarithms of the brightness are then fitted. Needs ``scattering="lommel-seeliger"``.
+        those of the ellipsoid have the prior deviation 50 %, which is a part of χ². Logarithms of the brightness are then fitted. Needs ``scattering="lommel-seeliger"``
+        and threadpoolctl, which ``pip install threadpoolctl`` installs: NumPy's BLAS gets one thread meanwhile.
     mode : {None, "principal-axis"}, optional
         "principal-axis" holds the body in rotation about its axis of greatest inertia: period, pole and phase are fitted. By default any motion is fitted, and simple rotation too, as a
         hypothesis beside it: `Fit.simple_rotation`.
@@ -172,7 +173,7 @@ def light_curve(
         data = replace(data, epoch=0.0 if scene is None else epoch_of(scene_of(scene)))
     data = replace(data, curve=curve)
     # A start that runs to a shape without a body has an infinite χ², and the search passes it over.
-    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+    with one_thread(curve), np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         if scene is not None:
             first = _state_of(scene_of(scene), semi_axes, data.epoch)
             if curve.spin is not None:

@@ -12,7 +12,7 @@ from andoyer._core import Scene
 from andoyer._quaternions import Array
 from andoyer._refusal import refusal
 from andoyer.fit._curve import Curve, States
-from andoyer.fit._facets import FacetAreas, Facets
+from andoyer.fit._facets import FacetAreas, Facets, one_thread
 from andoyer.fit._given import from_epoch, from_first, shaped
 from andoyer.fit._magnitudes import POGSON, Photometry, emitted
 from andoyer.fit._magnitudes import photometry as photometry_of
@@ -72,12 +72,14 @@ class Seen:
 
     def chi_squares(self, steps: Array) -> Array:
         """χ² of steps in rows."""
-        return self.curve.chi_squares(self._moved(steps))
+        with one_thread(self.curve):
+            return self.curve.chi_squares(self._moved(steps))
 
     def derivatives(self, steps: Array) -> tuple[Array, Array]:
         """Residuals (measured minus model) over σ of steps in rows, and their derivatives with respect to the steps."""
         there = self._moved(steps)
-        parts = self.curve.in_chunks(there, self.curve.residuals)
+        with one_thread(self.curve):
+            parts = self.curve.in_chunks(there, self.curve.residuals)
         residuals, slopes = (np.concatenate(arrays) for arrays in zip(*parts))
         jacobian = -np.swapaxes(slopes, 1, 2)
         jacobian[..., :3] = jacobian[..., :3] @ right_jacobian(steps[:, :3])
