@@ -179,7 +179,8 @@ class Curve:
         if self.shape:
             by_logarithm = by_state[:, 6:] * moments_of_ellipsoid(states.axes)[:, :, None]
             by_step = np.concatenate([by_step, np.swapaxes(logarithms_by_shape(states.axes), 1, 2) @ by_logarithm + np.moveaxis(by_shape, 0, 1)], axis=1)
-        return by_step[:, self.columns]
+        free: Array = by_step[:, self.columns]
+        return free
 
     def _relative(self, value: Array, by_step: Array) -> tuple[Array, Array]:
         """Derivatives of the logarithms of the brightnesses, shape (m, k, n), and their means over each curve, shape (m, k, c), which the factors take up."""

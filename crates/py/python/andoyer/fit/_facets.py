@@ -238,7 +238,10 @@ class Facets(Curve):
 
 def one_thread(curve: Curve) -> AbstractContextManager[Any]:
     """Where facets are solved for, BLAS has one thread: its products are small, and the states are on threads of our own. With more of its own a step takes three times as long."""
-    return _blas().limit(limits=1, user_api="blas") if isinstance(curve, Facets) else nullcontext()  # type: ignore[no-any-return]
+    if not isinstance(curve, Facets):
+        return nullcontext()
+    limit: AbstractContextManager[Any] = _blas().limit(limits=1, user_api="blas")
+    return limit
 
 
 @cache
