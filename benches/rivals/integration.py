@@ -1,7 +1,6 @@
 """Compare the integrated method with heyoka's integration of the same equations, in nine regimes.
 
     python benches/rivals/integration.py [--scenes 30] [--seed 1] [--tolerance 1e-10] [--no-cost] [--output docs/data/rivals-integration.csv]
-    python benches/rivals/integration.py --lanes --no-cost [...]
     python benches/rivals/integration.py --batch
 
 Random scenes of each regime: slow, synchronous, 3:2, fast, two bodies, precessing, eccentric (up to 0.95), near the separatrix, long axis. The reference is heyoka in extended precision (80 bits, tolerance
@@ -11,8 +10,6 @@ ratio of the bound without its floor of 1e-14 and an error above 2e-14.
 Cost: CPU seconds for set-up and 200 samples of one scene in each regime. andoyer's time includes its error bound. heyoka's time excludes its compilation (constants are in the equations), which
 is in the last column. "At tolerance": heyoka at the largest tolerance of a grid whose error is within the requested tolerance. "At error": the same for andoyer's own error, or heyoka's smallest
 tolerance. The engines take turns. A ratio, heyoka / andoyer, is the median of the ratios of the rounds of one run.
-
-`--lanes`: the same of members of ensembles, without two disturbing bodies.
 
 `--batch`: ensembles of 64 members (rates that differ by 1e-3) in the regimes with one fixed orbit, on one thread, against heyoka's batch mode with eight lanes at equal error, and
 against as many scenes one after another.
@@ -211,13 +208,6 @@ def cost(scene, times, exact, rounds=7):
     return *ratios, median(seconds["andoyer"]), compiled
 
 
-def in_lanes(scene):
-    """The motion of a scene as the member of an ensemble."""
-    return andoyer.Ensemble(
-        [scene.body.moments], [scene.attitude], [scene.angular_velocity], orbits=scene.orbit, tolerance=scene.tolerance, span=scene.span, method="integrated"
-    )[0]
-
-
 def batch(regime, tolerance, rounds=5):
     """Median ratios of the times of heyoka's batch mode and of single scenes to that of an ensemble, the largest error of eight members, heyoka's tolerance, and seconds of a member."""
     random = np.random.default_rng([7, REGIMES.index(regime)])
@@ -285,7 +275,6 @@ def main():
     options.add_argument("--tolerance", type=float, default=1e-10)
     options.add_argument("--no-cost", action="store_true")
     options.add_argument("--batch", action="store_true")
-    options.add_argument("--lanes", action="store_true")
     options.add_argument("--output", type=Path)
     asked = options.parse_args()
     warnings.simplefilter("ignore", andoyer.ToleranceWarning)
@@ -301,14 +290,14 @@ def main():
     lines.append(
         f"{'regime':<13}{'worst error':>12}{'its bound':>11}{'beyond bound':>14}{'beyond tolerance':>18}{'missed':>8}{'refused':>9}  {'bound/error q5, q50, q95':>26}{'least':>9}  {'at tolerance':>11}{'at error':>13}{'ms':>9}{'compiled, s':>12}"
     )
-    for regime in (regime for regime in REGIMES if not (asked.lanes and regime == "two bodies")):
+    for regime in REGIMES:
         random = np.random.default_rng([asked.seed, REGIMES.index(regime)])
         errors, bounds, beyond, missed, refused, priced = [], [], 0, 0, 0, ""
         for index in range(asked.scenes):
             scene = scene_of(regime, random, asked.tolerance)
             times = np.linspace(0, scene.span[1], SAMPLES)
             try:
-                motion = in_lanes(scene) if asked.lanes else scene.solve()
+                motion = scene.solve()
             except andoyer.TheoryError:
                 refused += 1
                 continue

@@ -7,7 +7,7 @@ Exit status 1 if an error is above its bound.
 
 Members of ten regimes: different bodies, states and rates under one fixed orbit for each 50 members. Their errors are the largest differences at 24 times from a second integration at the tolerance 1e-15. An error counts if it
 is above the bound of that integration and above 2e-14 rad, twice the floor of the bounds. Quantiles and the least value are of bound / error. Of members whose attitude is unknown at the end of the span only the number is printed. At tolerances below 1e-8 the
-errors are those of rounding in both integrations: benches/rivals/integration.py --lanes compares these with heyoka in 80-bit reals.
+errors are those of rounding in both integrations: benches/rivals/integration.py compares these with heyoka in 80-bit reals.
 """
 
 import argparse

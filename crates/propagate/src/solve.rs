@@ -52,36 +52,15 @@ impl Scene {
     /// # Errors
     /// As [`Scene::solve`], and [`Error::Stopped`].
     pub fn solve_until(&self, stop: &AtomicBool) -> Result<Motion, Error> {
+        self.served(Served::Scene, stop)
+    }
+
+    /// As [`Scene::solve_until`], for a use of the motion.
+    pub(crate) fn served(&self, served: Served, stop: &AtomicBool) -> Result<Motion, Error> {
         let scene = self.validated()?;
-        let Some(turn) = scene.body().turn() else { return choose::motion(scene, stop) };
-        let mut motion = choose::motion(scene.about_principal_axes(turn), stop)?;
+        let Some(turn) = scene.body().turn() else { return choose::motion(scene, (served, stop)) };
+        let mut motion = choose::motion(scene.about_principal_axes(turn), (served, stop))?;
         motion.given = Some(Box::new(Given { scene, turn }));
         Ok(motion)
     }
-
-    /// The valid scene about principal axes, and what was given if it has other axes.
-    fn about_own_axes(&self) -> Result<(Self, Option<Box<Given>>), Error> {
-        let scene = self.validated()?;
-        let Some(turn) = scene.body().turn() else { return Ok((scene, None)) };
-        Ok((scene.about_principal_axes(turn), Some(Box::new(Given { scene, turn }))))
-    }
-}
-
-/// The motions of several scenes, each as [`Scene::solve`] has it but for rounding: those that are integrated are integrated together, over as much of their spans as is asked for.
-pub(crate) fn disturbed(
-    scenes: Vec<Result<Scene, Error>>,
-    served: Served,
-    stop: &AtomicBool,
-) -> Vec<Result<Motion, Error>> {
-    let mut given = Vec::with_capacity(scenes.len());
-    let about_own_axes = |scene: Result<Scene, Error>| {
-        let (scene, own) = match scene.and_then(|scene| scene.about_own_axes()) {
-            Ok((scene, own)) => (Ok(scene), own),
-            Err(error) => (Err(error), None),
-        };
-        given.push(own);
-        scene
-    };
-    let motions = choose::motions(scenes.into_iter().map(about_own_axes).collect(), served, stop);
-    motions.into_iter().zip(given).map(|(motion, given)| motion.map(|motion| Motion { given, ..motion })).collect()
 }

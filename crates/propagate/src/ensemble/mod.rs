@@ -1,9 +1,8 @@
-//! Many bodies: solved in groups, of sixteen free bodies or eight under torques, and evaluated member by member, in memory proportional to the result.
+//! Many bodies: free bodies are solved in groups of sixteen, others one by one, and evaluated member by member, in memory proportional to the result.
 //!
 //! The constants of the polhodes of a group and their frequencies are computed in lanes, one member a lane. No operation combines lanes and a group is computed
-//! by one thread, so that the bits depend neither on the number of threads nor on the other members. Members under the gravity gradient of an orbit are solved
-//! one by one by theory, or integrated together in lanes (`integration`). Their motions are kept, up to [`KEPT_MEMORY`]; the motion of another
-//! member lives while its rows are written. Every member that is no body or no state is found before any is computed, and the error names the first with its index.
+//! by one thread, so that the bits depend neither on the number of threads nor on the other members. The motions under torques are kept, up to [`KEPT_MEMORY`]: of those that are integrated
+//! the start of each step, from which a call expands the steps that its times fall into. The motion of another member lives while its rows are written. Every member that is no body or no state is found before any is computed, and the error names the first with its index.
 
 mod asked;
 mod distribution;

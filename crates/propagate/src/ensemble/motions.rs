@@ -12,14 +12,11 @@ use crate::input::state::State;
 use crate::motion::solved::Motion;
 use crate::simd::halt::GOING;
 use crate::simd::lanes::WIDEST;
-use crate::solve::{disturbed, several};
+use crate::solve::several;
 
 use super::kept::Solved;
 use super::members::{BLOCK, Ensemble};
 use super::on_error::OnError;
-
-/// Members that are solved at once if there are orbits: those that are integrated fill the lanes of a vector, and the others are shared among the threads.
-const DISTURBED_GROUP: usize = 8;
 
 impl Ensemble {
     pub(super) fn scene_of_columns(&self, index: usize) -> Result<Scene, Error> {
@@ -52,12 +49,8 @@ impl Ensemble {
         if !members.clone().any(|member| self.is_kept(member)) {
             return several(members.map(|member| self.scene(member)).collect(), each);
         }
-        let kept: Vec<_> = members.clone().map(|member| self.kept.get(member)).collect();
-        let unsolved = members.clone().zip(&kept).filter(|(_, kept)| kept.is_none());
-        let mut solved =
-            disturbed(unsolved.map(|(member, _)| self.scene(member)).collect(), self.served(), stop).into_iter();
-        for (member, kept) in members.zip(kept) {
-            let Some(solved) = kept.or_else(|| solved.next().map(Arc::new)) else { continue };
+        for member in members {
+            let solved = self.solved(member, stop);
             each(&solved);
             if self.is_kept(member) {
                 self.kept.keep(member, solved);
@@ -75,17 +68,17 @@ impl Ensemble {
         !self.orbits_of(member).is_empty() || !torques.is_empty() || method.is_integrated()
     }
 
-    /// The motion of a member that is kept.
-    pub(super) fn solved(&self, member: usize) -> Solved {
-        let solve = || disturbed(vec![self.scene(member)], self.served(), &GOING).pop().unwrap_or(Err(Error::Stopped));
+    /// The motion of a member, kept or solved.
+    pub(super) fn solved(&self, member: usize, stop: &AtomicBool) -> Solved {
+        let solve = || self.scene(member).and_then(|scene| scene.served(self.served(), stop));
         self.kept.get(member).unwrap_or_else(|| Arc::new(solve()))
     }
 
     /// The part of its span over which a member is solved. With [`OnError::Nan`] it ends where the error bound reaches half a turn, and only the rows of later times are NaN.
     fn served(&self) -> Served {
         match self.on_error {
-            OnError::Raise => Served::WholeSpan,
-            OnError::Nan => Served::WhileKnown,
+            OnError::Raise => Served::Member,
+            OnError::Nan => Served::MemberWhileKnown,
         }
     }
 
@@ -97,9 +90,9 @@ impl Ensemble {
         }
     }
 
-    /// Members that are solved at once.
+    /// Members that are solved at once: free bodies in lanes.
     pub(super) fn group(&self) -> usize {
-        if self.is_free() { WIDEST } else { DISTURBED_GROUP }
+        if self.is_free() { WIDEST } else { 1 }
     }
 
     /// The motion of one member.
@@ -112,7 +105,7 @@ impl Ensemble {
             return Err(Error::Index { index, members: self.len() });
         }
         let motion = if self.is_kept(index) {
-            let solved = self.solved(index);
+            let solved = self.solved(index, &GOING);
             self.kept.keep(index, solved.clone());
             Result::clone(&solved)
         } else {
@@ -123,6 +116,6 @@ impl Ensemble {
 
     /// Members that a thread takes at least, a multiple of the group.
     pub(super) fn block(&self) -> usize {
-        if self.is_free() { BLOCK } else { DISTURBED_GROUP }
+        if self.is_free() { BLOCK } else { 1 }
     }
 }

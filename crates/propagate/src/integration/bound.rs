@@ -125,7 +125,7 @@ impl MeasuredSteps<'_> {
     }
 
     /// The displacements of the attitudes and of the rates and constants.
-    pub(super) fn patterns(&self) -> [&'static [Row; PATTERNS]; 2] {
+    fn patterns(&self) -> [&'static [Row; PATTERNS]; 2] {
         if self.enlarged { [&TURNED_CORNERS, &CORNERS] } else { [&TURN, &WEIGHTS] }
     }
 
@@ -138,7 +138,7 @@ impl MeasuredSteps<'_> {
     }
 
     /// Attitude and rates of each displaced state at the epoch.
-    pub(super) fn displaced_states(&self, first: &Start<4>, scale: f64) -> [[Row; 2]; PATTERNS] {
+    fn displaced_states(&self, first: &Start<4>, scale: f64) -> [[Row; 2]; PATTERNS] {
         let [angle, rate] = self.displacement().map(|displacement| scale * displacement);
         let [turns, weights] = self.patterns();
         let [x, y, z, w] = first.attitude;
@@ -171,19 +171,19 @@ impl MeasuredSteps<'_> {
 }
 
 /// The comparisons of the displaced states of a motion, one after another.
-pub(super) struct Comparisons<'a> {
+struct Comparisons<'a> {
     steps: MeasuredSteps<'a>,
     groups: Chunks<'a, Step>,
     group: &'a [Step],
     /// How many times the displacements are enlarged.
-    pub(super) scale: f64,
+    scale: f64,
     bound: f64,
     profile: Profile,
-    pub(super) random: u64,
+    random: u64,
 }
 
 impl<'a> Comparisons<'a> {
-    pub(super) fn new(steps: MeasuredSteps<'a>) -> Self {
+    fn new(steps: MeasuredSteps<'a>) -> Self {
         let last = steps.steps[steps.steps.len() - 1].time.0;
         let scale = if steps.enlarged { ENLARGED / steps.linear(last) } else { 1.0 };
         let mut groups = steps.steps[1..].chunks(stride(steps.steps));
@@ -192,38 +192,38 @@ impl<'a> Comparisons<'a> {
     }
 
     /// The precision of the displaced states.
-    pub(super) fn precision(&self) -> Precision {
+    fn precision(&self) -> Precision {
         self.steps.precision.shorter(if self.steps.enlarged { LONGER } else { SHORTER })
     }
 
     /// The step of the motion at the next comparison; none after the last.
-    pub(super) fn target(&self) -> Option<&'a Step> {
+    fn target(&self) -> Option<&'a Step> {
         self.group.last()
     }
 
     /// Displacements of the ratios of the moments and of each torque.
-    pub(super) fn constants(&self) -> [f64; 2] {
+    fn constants(&self) -> [f64; 2] {
         CONSTANTS.map(|error| self.scale * error)
     }
 
     /// Displacements of a step relative to its rounding errors.
-    pub(super) fn noise(&self) -> [f64; 2] {
+    fn noise(&self) -> [f64; 2] {
         self.steps.noise.map(|noise| noise * self.scale * if self.steps.enlarged { NOISE } else { 1.0 })
     }
 
     /// Whether the states have not been lost.
-    pub(super) fn holds(&self) -> bool {
+    fn holds(&self) -> bool {
         self.bound < PI
     }
 
     /// The displaced states are not finite.
-    pub(super) fn lose(&mut self) {
+    fn lose(&mut self) {
         self.bound = PI;
     }
 
     /// Compares the states at the target. Returns the factor by which their distances become smaller, or `None` if an enlarged displacement grew beyond
     /// [`UNSCALED`].
-    pub(super) fn compare(&mut self, attitudes: &[Row; PATTERNS]) -> Option<f64> {
+    fn compare(&mut self, attitudes: &[Row; PATTERNS]) -> Option<f64> {
         let Some(target) = self.target() else { return Some(1.0) };
         let Self { steps, scale, .. } = self;
         self.bound = self.group.iter().map(|step| steps.drift(step)).fold(self.bound, f64::max);
@@ -241,7 +241,7 @@ impl<'a> Comparisons<'a> {
         Some(factor)
     }
 
-    pub(super) fn profile(self) -> Profile {
+    fn profile(self) -> Profile {
         self.profile
     }
 }

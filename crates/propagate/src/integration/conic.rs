@@ -6,8 +6,6 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
-
 use super::series::{GRAVITY, RECIPROCALS, ROWS, Row, Scalars, Series, ZERO, add_scaled, product};
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
@@ -32,9 +30,9 @@ pub(super) struct Conic {
     still: [(f64, f64); 2],
     /// Rates of node and argument in the unit of the integration.
     rates: [f64; 2],
-    pub(super) mean_motion: f64,
-    pub(super) eccentricity: f64,
-    pub(super) root: f64,
+    mean_motion: f64,
+    eccentricity: f64,
+    root: f64,
     /// The mean anomaly of the singularity above the pericentre, over the imaginary unit.
     singularity: f64,
     tilt: (f64, f64),
@@ -76,19 +74,9 @@ impl Conic {
         }
     }
 
-    /// The axes of the orbit, if it is an ellipse that does not precess.
-    pub(super) fn fixed_axes(&self) -> Option<UnitQuaternion<f64>> {
-        if self.hyperbola.is_some() || self.rates != [0.0; 2] {
-            return None;
-        }
-        let [first, second] = self.axes.map(|[x, y, z, _]| Vector3::new(x, y, z));
-        let axes = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[first, second, first.cross(&second)]));
-        Some(UnitQuaternion::new_normalize(UnitQuaternion::from_rotation_matrix(&axes).into_inner()))
-    }
-
     /// The mean anomaly a time after the epoch; that of an ellipse is in [−π, π].
     #[inline(always)]
-    pub(super) fn mean_at(&self, (high, low): (f64, f64)) -> f64 {
+    fn mean_at(&self, (high, low): (f64, f64)) -> f64 {
         self.mean((scaled(high, -self.exponent), scaled(low, -self.exponent))).1
     }
 
@@ -115,7 +103,7 @@ impl Conic {
     }
 
     /// The radius of convergence at a mean anomaly.
-    pub(super) fn radius(&self, mean: f64) -> f64 {
+    fn radius(&self, mean: f64) -> f64 {
         (mean * mean + self.singularity * self.singularity).sqrt() / self.mean_motion
     }
 

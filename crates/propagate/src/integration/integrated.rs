@@ -54,26 +54,12 @@ pub(crate) struct Integrated {
 }
 
 impl Integrated {
-    /// The motion of a scene about principal axes over its span.
-    pub(crate) fn new(scene: &Scene, reason: &str, stop: &AtomicBool) -> Result<Self, Error> {
-        Self::served(scene, reason, Served::WholeSpan, stop)
-    }
-
-    /// The motion of a scene about principal axes over as much of its span as is asked for.
-    pub(super) fn served(scene: &Scene, reason: &str, served: Served, stop: &AtomicBool) -> Result<Self, Error> {
-        let problem = Problem::new(scene, reason)?;
+    /// The motion of a scene about principal axes over its span, or over as much of it as is asked for.
+    pub(crate) fn new(scene: &Scene, reason: &str, (served, stop): (Served, &AtomicBool)) -> Result<Self, Error> {
+        let problem = Problem { keeps_coefficients: served == Served::Scene, ..Problem::new(scene, reason)? };
         let first = problem.solved(problem.first_error(), stop);
-        Self::of(&problem, scene, first.and_then(|first| problem.repeated(first, stop)), (served, stop))
-    }
-
-    /// From the integration whose error bound counts.
-    pub(super) fn of(
-        problem: &Problem,
-        scene: &Scene,
-        measured: Result<MeasuredMotion, Error>,
-        (served, stop): (Served, &AtomicBool),
-    ) -> Result<Self, Error> {
-        let known = |measured| Self::known(problem, scene, measured, (served, stop));
+        let measured = first.and_then(|first| problem.repeated(first, stop));
+        let known = |measured| Self::known(&problem, scene, measured, (served, stop));
         measured.and_then(known).map_err(|error| match error {
             // In the units of the scene.
             Error::SpunUp { time, rate, steps, bound } => Error::SpunUp {
@@ -112,7 +98,7 @@ impl Integrated {
         if let (Some(_), Some(error)) = (motion.uninterpolated, too_coarse(scene, motion.reach)) {
             return Err(error);
         }
-        if served == Served::WhileKnown {
+        if served == Served::MemberWhileKnown {
             return Ok(motion.while_known(&profiles));
         }
         let mut held = [0.0; 2];
@@ -181,7 +167,7 @@ pub(super) struct MeasuredMotion {
 
 impl MeasuredMotion {
     /// The one with the smaller error bound.
-    pub(super) fn or_better(self, other: Self) -> Self {
+    fn or_better(self, other: Self) -> Self {
         if other.motion.error < self.motion.error { other } else { self }
     }
 }
@@ -203,6 +189,8 @@ pub(super) struct Problem {
     /// Number of torques beside the gravity gradient.
     torques: usize,
     of_interpolation: f64,
+    /// Whether the coefficients of the steps are kept.
+    keeps_coefficients: bool,
 }
 
 impl Problem {
@@ -260,6 +248,7 @@ impl Problem {
             reach: [start - epoch, stop - epoch],
             torques: scene.acting_torques().len(),
             of_interpolation,
+            keeps_coefficients: true,
         })
     }
 
@@ -309,7 +298,8 @@ impl Problem {
 
     /// An integration before the epoch, 0, or after it, 1, that has not begun.
     pub(super) fn beginning(&self, side: usize) -> StepsSoFar {
-        StepsSoFar::new(Runner::new(self.attitude, self.rates, side == 0), &self.equations)
+        let runner = Runner::new(self.attitude, self.rates, side == 0);
+        StepsSoFar::new(runner, &self.equations, self.keeps_coefficients)
     }
 
     /// An integration that goes on to its end, or to a number of steps.
@@ -332,7 +322,7 @@ impl Problem {
     }
 
     /// The first integration, or a second one with shorter steps where this has the smaller error bound.
-    pub(super) fn repeated(&self, first: MeasuredMotion, stop: &AtomicBool) -> Result<MeasuredMotion, Error> {
+    fn repeated(&self, first: MeasuredMotion, stop: &AtomicBool) -> Result<MeasuredMotion, Error> {
         match self.second_error(&first) {
             Some(error) => Ok(first.or_better(self.solved(error, stop)?)),
             None => Ok(first),
@@ -340,7 +330,7 @@ impl Problem {
     }
 
     /// The relative error of the steps of a second integration, if the first misses the tolerance and it may come nearer.
-    pub(super) fn second_error(&self, first: &MeasuredMotion) -> Option<f64> {
+    fn second_error(&self, first: &MeasuredMotion) -> Option<f64> {
         let MeasuredMotion { relative, motion, share, .. } = first;
         // Shorter steps leave the interpolation of a table as it is, and rounding errors.
         let error = motion.uninterpolated.unwrap_or(motion.error);
@@ -367,7 +357,7 @@ impl Problem {
     }
 
     /// The motion by steps of this relative error before and after the epoch, with the error bounds that the displaced states give.
-    pub(super) fn with_bounds(
+    fn with_bounds(
         &self,
         (precision, relative): (Precision, f64),
         kept: [(Side, StepErrors); 2],
@@ -445,7 +435,7 @@ impl Problem {
     }
 
     /// The steps in one direction, to be measured by enlarged displacements.
-    pub(super) fn enlarged<'a>(
+    fn enlarged<'a>(
         &'a self,
         steps: &'a [Step],
         errors: &StepErrors,

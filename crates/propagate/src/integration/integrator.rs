@@ -58,23 +58,11 @@ pub(super) struct Side {
 }
 
 impl Side {
-    /// With room for so many steps of an order: vectors that grow are copied again and again.
-    pub(super) fn with_room(steps: usize, order: usize) -> Self {
-        Self { steps: Vec::with_capacity(steps), coefficients: Vec::with_capacity(steps * (order + 1)) }
-    }
-
     /// Without the steps after a time from the epoch, with the coefficients of an order.
     pub(super) fn end_at(&mut self, time: f64, order: usize) {
         let steps = self.steps.partition_point(|step| step.time.0.abs() <= time.abs()).max(1);
         self.steps.truncate(steps);
         self.coefficients.truncate((steps - 1) * (order + 1));
-    }
-
-    /// Without the room that was not needed.
-    pub(super) fn fitted(mut self) -> Self {
-        self.steps.shrink_to_fit();
-        self.coefficients.shrink_to_fit();
-        self
     }
 }
 
@@ -103,16 +91,6 @@ impl Precision {
         let [before, last] =
             [(sizes[0], self.order - 1), (sizes[1], self.order)].map(|(size, k)| -size.ln() / k as f64);
         (before.min(last) + self.shrinkage).exp().min(NEAREST * radius)
-    }
-
-    /// The next even order, if it is odd.
-    pub(super) fn of_even_order(self) -> Self {
-        Self::of_order(self.order.next_multiple_of(2).min(MAX))
-    }
-
-    /// The largest relative error of a step for which the order is enough.
-    pub(super) fn error(self) -> f64 {
-        (-2.0 * (self.order as f64 - 1.0)).exp()
     }
 
     /// With steps of this length relative to those before.
@@ -264,14 +242,14 @@ impl Runner<4> {
 
 /// The length of a step that goes to a target at most, and its end if that is the target.
 #[inline(always)]
-pub(super) fn to_target(now: (f64, f64), target: (f64, f64), whole: f64) -> (f64, Option<(f64, f64)>) {
+fn to_target(now: (f64, f64), target: (f64, f64), whole: f64) -> (f64, Option<(f64, f64)>) {
     let left = (target.0 - now.0) + (target.1 - now.1);
     if whole >= left.abs() { (left, Some(target)) } else { (whole.copysign(left), None) }
 }
 
 /// A time in double-double plus a length.
 #[inline(always)]
-pub(super) fn sum((high, low): (f64, f64), length: f64) -> (f64, f64) {
+fn sum((high, low): (f64, f64), length: f64) -> (f64, f64) {
     let (sum, rest) = two_sum(high, length);
     two_sum(sum, rest + low)
 }
@@ -290,15 +268,16 @@ pub(super) struct StepsSoFar {
     /// The start of each step.
     steps: Vec<Step>,
     coefficients: Vec<Coefficients>,
+    /// Whether there are coefficients of every step.
     kept: bool,
     fast: Option<(f64, usize)>,
     growth: Option<StepGrowth>,
 }
 
 impl StepsSoFar {
-    pub(super) fn new(runner: Runner<4>, equations: &Equations<4>) -> Self {
+    pub(super) fn new(runner: Runner<4>, equations: &Equations<4>, kept: bool) -> Self {
         let growth = equations.torques.as_ref().map(|torques| StepGrowth::new(torques.brakes, MOST_STEPS));
-        Self { runner, steps: Vec::new(), coefficients: Vec::new(), kept: true, fast: None, growth }
+        Self { runner, steps: Vec::new(), coefficients: Vec::new(), kept, fast: None, growth }
     }
 
     /// The number of steps of the whole integration, from below.

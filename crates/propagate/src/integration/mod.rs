@@ -5,7 +5,7 @@
 //! displaced states measure the error ([`bound`]), also before the end, so that a motion of which nothing is known any more ends ([`judged`]). docs/speed.md has its time beside that of heyoka, which
 //! has no bound (`make rivals-integration`).
 //!
-//! Members of an ensemble are integrated together, each in a lane of a vector ([`several`], [`lane_tasks`], [`lanes`], [`lane_series`]).
+//! Members of an ensemble are integrated one after another, each to the bits of its scene. They keep the starts of their steps alone.
 
 mod bound;
 pub(crate) mod columns;
@@ -18,9 +18,6 @@ pub(crate) mod integrated;
 pub(crate) mod integrator;
 mod interpolation;
 mod judged;
-mod lane_series;
-mod lane_tasks;
-mod lanes;
 mod law_series;
 mod linear;
 mod path_series;
@@ -28,7 +25,6 @@ mod products;
 pub(crate) mod prospect;
 pub(crate) mod rates;
 mod series;
-pub(crate) mod several;
 mod step_errors;
 mod torques;
 pub(crate) mod variation;

@@ -7,9 +7,6 @@ const OMITTED: f64 = 0.2;
 /// Relative rounding errors of a torque and of ω × Iω.
 pub(super) const ROUNDING: [f64; 2] = [4.0 * 1.2e-16, 2.0 * 1.2e-16];
 
-/// Rounding error of an attitude that is turned to the axes of an orbit and back, 4.6e-16 at most in 1,000 drawn ones, and of the axes \[rad\].
-const TURNED: f64 = 6e-16;
-
 /// How many displaced states there are.
 pub(super) const PATTERNS: usize = 4;
 
@@ -34,11 +31,6 @@ pub(super) struct StepSizes {
 }
 
 impl StepErrors {
-    /// Of an attitude that has been turned to other axes and will be turned back.
-    pub(super) fn turned() -> Self {
-        Self { rounded: [TURNED * TURNED, 0.0], ..Self::default() }
-    }
-
     /// Adds the errors that a step may have made.
     #[inline(always)]
     pub(super) fn add(&mut self, length: f64, order: usize, StepSizes { omitted, rounding, radius }: StepSizes) {

@@ -10,10 +10,10 @@ use super::integrator::{Precision, Step};
 use super::products::NEXT;
 use super::prospect::prospect;
 use super::series::{Row, norm};
-use super::several::several;
 use super::step_errors::moved;
 use crate::error::{Error, STEP_BYTES};
 use crate::input::options::Served;
+use crate::motion::forced::Forced;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch_few};
 use crate::{Body, Method, Orbit, Scene, State};
 
@@ -28,13 +28,13 @@ fn a_step_takes_the_bytes_that_the_error_says() {
 }
 
 #[test]
-fn steps_that_are_expanded_again_give_the_bits_of_those_that_were_kept() {
+fn a_member_has_the_bits_of_its_scene_and_a_tenth_of_its_memory() {
     let orbit = Orbit::new(0.3, 0.4).expect("an orbit").secular_rates(0.01, -0.02).expect("rates");
     let scene = scene([0.5, 0.8, 1.0], [0.3, 0.5, 1.0]).orbit(orbit).span(-40.0, 60.0);
-    let kept = Integrated::new(&scene, "", &AtomicBool::new(false)).expect("a motion");
-    let mut dropped = kept.clone();
-    dropped.sides.iter_mut().for_each(|side| side.coefficients.clear());
-    let (mut one, mut other) = (Cursor::new(&kept), Cursor::new(&dropped));
+    let motion = |served| Integrated::new(&scene, "", (served, &AtomicBool::new(false))).expect("a motion");
+    let (alone, member) = (motion(Served::Scene), motion(Served::Member));
+    assert!(alone.error == member.error && 10 * member.memory() < alone.memory());
+    let (mut one, mut other) = (Cursor::new(&alone), Cursor::new(&member));
     for k in 0..=400 {
         let time = -43.0 + 0.25 * f64::from(k);
         assert_eq!(one.at((time, 0.0)), other.at((time, 0.0)));
@@ -50,7 +50,7 @@ fn an_integration_is_repeated_with_shorter_steps_only_if_truncation_errors_keep_
         let orbit = Orbit::new(1.0, 0.05).and_then(|orbit| orbit.plane(0.5, 1.0, 2.0)).expect("an orbit");
         let scene = scene(moments, rates).orbit(orbit).span(3.0, stop).tolerance(1e-10);
         let first = Precision::of(Problem::new(&scene, "").expect("a problem").first_error());
-        let motion = Integrated::new(&scene, "", &AtomicBool::new(false)).expect("a motion");
+        let motion = Integrated::new(&scene, "", (Served::Scene, &AtomicBool::new(false))).expect("a motion");
         assert_eq!(motion.order() > first.order, repeated, "{moments:?}: {:e}", motion.error);
         assert!(repeated || motion.error > 1e-10, "{:e}", motion.error);
     }
@@ -59,7 +59,7 @@ fn an_integration_is_repeated_with_shorter_steps_only_if_truncation_errors_keep_
 #[test]
 fn the_integrals_of_the_free_motion_drift_by_twice_the_relative_error_of_the_rates() {
     let free = scene([1.0, 1.5, 2.0], [0.1, 0.2, 1.0]).span(0.0, 500.0).method(Method::Integrated);
-    let motion = Integrated::new(&free, "", &AtomicBool::new(false)).expect("a motion");
+    let motion = Integrated::new(&free, "", (Served::Scene, &AtomicBool::new(false))).expect("a motion");
     let [first, last] = [&motion.sides[1].steps[0], &motion.sides[1].steps[motion.sides[1].steps.len() - 1]];
     let equations = Equations::new(&free, 0, 1.0);
     // Along the motion the energy and the angular momentum stay; with rates 1e-9 larger the largest integral, f2 ω1² − f1 ω2² or another, changes by 2e-9 of
@@ -95,7 +95,8 @@ fn the_guess_of_the_bound_is_near_the_bound_and_not_above_it_in_the_median() {
     let mut ratios: Vec<f64> = random_scenes(30)
         .map(|scene| {
             let (guess, steps) = prospect(&scene).expect("a guess");
-            let motion = Integrated::new(&scene.tolerance(1e-15), "", &AtomicBool::new(false)).expect("a motion");
+            let motion = Integrated::new(&scene.tolerance(1e-15), "", (Served::Scene, &AtomicBool::new(false)))
+                .expect("a motion");
             assert!(motion.plan(0.0).steps as f64 <= 1.3 * steps, "{} and {steps}", motion.plan(0.0).steps);
             guess / motion.error
         })
@@ -116,7 +117,7 @@ fn the_bound_is_above_the_error_where_the_growing_part_of_two_displacements_canc
     let orbit = orbit.and_then(|orbit| orbit.plane(1.4677893172430838, 3.1874226752304695, 4.598141704624689));
     let scene = Scene::new(body, State::new(0.0, attitude, rates).expect("a state")).orbit(orbit.expect("an orbit"));
     let scene = scene.span(0.0, 10.170380595942394).tolerance(1e-10);
-    let motion = Integrated::new(&scene, "", &AtomicBool::new(false)).expect("a motion");
+    let motion = Integrated::new(&scene, "", (Served::Scene, &AtomicBool::new(false))).expect("a motion");
     assert!(motion.error > 2.6e-13 && motion.error < 1e-10, "{:e}", motion.error);
 }
 
@@ -136,7 +137,8 @@ fn the_bound_of_a_locked_rotation_has_the_rounding_errors_of_series_that_cancel(
         let scene = Scene::new(Body::new([0.85, 0.95, 1.0]).expect("a body"), state);
         let scene = scene.orbit(Orbit::new(1.0, 0.0).expect("an orbit")).span(0.0, 6283.0);
         for tolerance in [1e-8, 1e-16] {
-            let motion = Integrated::new(&scene.clone().tolerance(tolerance), "", &AtomicBool::new(false));
+            let motion =
+                Integrated::new(&scene.clone().tolerance(tolerance), "", (Served::Scene, &AtomicBool::new(false)));
             let motion = motion.expect("a motion");
             let found = Cursor::new(&motion).at((6283.0, 0.0)).0;
             let error = 2.0 * norm(&[found[0], found[1], found[2] - last_z, found[3] - last_w]);
@@ -183,44 +185,6 @@ fn states_that_are_moved_to_a_motion_keep_the_direction_of_their_difference_and_
 }
 
 #[test]
-fn motions_in_lanes_are_those_that_are_integrated_alone() {
-    let turned = |scene: Scene, e: f64| {
-        let orbit = Orbit::new(0.1, e).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
-        scene.orbit(orbit).tolerance(1e-10)
-    };
-    let scenes: Vec<_> = random_scenes(11)
-        .zip([0.0, 0.1, 0.3, 0.6, 0.8].into_iter().cycle())
-        .map(|(scene, e)| turned(scene, e))
-        .collect();
-    let going = AtomicBool::new(false);
-    let together = several(&scenes.iter().map(|scene| (scene, "")).collect::<Vec<_>>(), Served::WholeSpan, &going);
-    for (scene, together) in scenes.iter().zip(together) {
-        let (alone, together) = (Integrated::new(scene, "", &going).expect("a motion"), together.expect("a motion"));
-        // The kept states are those of the series: a norm that has drifted shows in the error bound.
-        for (step, rows) in
-            together.sides.iter().flat_map(|side| side.steps.iter().zip(side.coefficients.chunks(together.order + 1)))
-        {
-            let apart = norm(&[0, 1, 2, 3].map(|lane| step.attitude[lane] - rows[0][lane]));
-            assert!(apart <= 5e-16, "{apart:e}");
-        }
-        let mut cursors = [Cursor::new(&alone), Cursor::new(&together)];
-        let bound = alone.error.min(together.error);
-        for k in 0..=20 {
-            let time = f64::from(k) / 20.0 * alone.reach[1];
-            let [one, other] = [0, 1].map(|i| cursors[i].at((time, 0.0)).0);
-            let apart = 2.0 * norm(&[0, 1, 2, 3].map(|lane| one[lane] - other[lane]));
-            assert!(apart <= bound, "{apart:e} {bound:e}");
-        }
-        assert!(
-            together.error < 2.0 * alone.error && together.error > 0.1 * alone.error,
-            "{:e} {:e}",
-            alone.error,
-            together.error
-        );
-    }
-}
-
-#[test]
 fn a_chaotic_motion_ends_soon_after_the_time_from_which_on_nothing_is_known() {
     // Hyperion, wobbling.
     let orbit = Orbit::new(1.0, 0.123).expect("an orbit");
@@ -237,10 +201,10 @@ fn a_chaotic_motion_ends_soon_after_the_time_from_which_on_nothing_is_known() {
     assert!(whole.steps.len() > 30 * side.steps.len(), "{} and {}", whole.steps.len(), side.steps.len());
     assert!(side.steps.iter().zip(&whole.steps).all(|(one, other)| same(one, other)));
     // What is refused says this time.
-    let refused = Integrated::new(&chaotic, "", &going).expect_err("chaos");
+    let refused = Integrated::new(&chaotic, "", (Served::Scene, &going)).expect_err("chaos");
     assert!(matches!(refused, Error::Unpredictable { known: [first, last], .. } if first == 3.0 && last > 50.0));
     // So does a span of 1.8 times the allowed steps: a shorter one would be refused too.
-    let refused = Integrated::new(&chaotic.span(3.0, 2.3e6), "", &going).expect_err("chaos");
+    let refused = Integrated::new(&chaotic.span(3.0, 2.3e6), "", (Served::Scene, &going)).expect_err("chaos");
     assert!(matches!(refused, Error::Unpredictable { known: [_, last], .. } if last > 50.0), "{refused}");
 }
 

@@ -295,12 +295,6 @@ impl<S: InstructionSet> Lanes<S> {
         Self { simd, _aligned: [], strands: [simd.splat_f64s(first), simd.splat_f64s(second)] }
     }
 
-    /// The lanes of the first strand.
-    #[inline(always)]
-    pub(crate) fn strand(self) -> S::f64s {
-        self.strands[0]
-    }
-
     /// The same value, if both strands are known to be alike: the second one need not be loaded.
     #[inline(always)]
     pub(crate) fn alike(self) -> Self {

@@ -2,8 +2,6 @@
 
 use std::sync::atomic::AtomicBool;
 
-use andoyer_series::threads::map;
-
 use super::free::{self, Preparation};
 use super::{averaged, integrated, libration};
 use crate::error::{Error, Kind, torque_refused};
@@ -14,7 +12,6 @@ use crate::input::torque::Torque;
 use crate::integration::integrated::Integrated;
 use crate::integration::integrator::MOST_STEPS;
 use crate::integration::prospect::{is_brief, prospect};
-use crate::integration::several::several;
 use crate::motion::plan::{ROUNDED_TOLERANCE, bound_in_words, in_ascii};
 use crate::motion::solved::Motion;
 use crate::orbit::disturbing_body::DisturbingBody;
@@ -71,7 +68,7 @@ struct Integration {
 ///
 /// # Errors
 /// As [`Scene::solve_until`].
-pub(super) fn motion(scene: Scene, stop: &AtomicBool) -> Result<Motion, Error> {
+pub(super) fn motion(scene: Scene, (served, stop): (Served, &AtomicBool)) -> Result<Motion, Error> {
     let by_theory_alone = !matches!(scene.asked_method(), Method::Integrated | Method::Libration);
     if by_theory_alone && scene.asked_disturbing().is_empty() && scene.asked_torques().is_empty() {
         return by_theory(scene);
@@ -79,30 +76,10 @@ pub(super) fn motion(scene: Scene, stop: &AtomicBool) -> Result<Motion, Error> {
     match choice(scene, stop)? {
         Choice::Solved(motion) => Ok(*motion),
         Choice::Integrate(chosen) => {
-            let found = Integrated::new(&chosen.scene, &chosen.reason, stop);
+            let found = Integrated::new(&chosen.scene, &chosen.reason, (served, stop));
             chosen.finished(found)
         }
     }
-}
-
-/// The motions of several scenes about principal axes. Those that are integrated are integrated together, over as much of their spans as is asked for.
-pub(super) fn motions(
-    scenes: Vec<Result<Scene, Error>>,
-    served: Served,
-    stop: &AtomicBool,
-) -> Vec<Result<Motion, Error>> {
-    let choose = |scene: Result<Scene, Error>| choice(scene?, stop);
-    let choices = map(scenes, choose);
-    let chosen = choices.iter().filter_map(|choice| match choice {
-        Ok(Choice::Integrate(chosen)) => Some((&chosen.scene, &chosen.reason[..])),
-        _ => None,
-    });
-    let mut found = several(&chosen.collect::<Vec<_>>(), served, stop).into_iter();
-    let mut finished = |choice| match choice {
-        Choice::Solved(motion) => Ok(*motion),
-        Choice::Integrate(chosen) => chosen.finished(found.next().unwrap_or(Err(Error::Stopped))),
-    };
-    choices.into_iter().map(|choice| choice.and_then(&mut finished)).collect()
 }
 
 /// The motion by a theory, or the integration that the scene needs.

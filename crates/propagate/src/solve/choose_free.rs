@@ -13,12 +13,7 @@ use crate::torque_free::polhode::Polhode;
 ///
 /// # Errors
 /// Those of the free motion.
-pub(super) fn motion(scene: Scene, _: &AtomicBool) -> Result<Motion, Error> {
+pub(super) fn motion(scene: Scene, _: (Served, &AtomicBool)) -> Result<Motion, Error> {
     let polhode = Polhode::of(&scene);
     free::motion(scene, polhode.as_ref(), Preparation::default())
-}
-
-/// The motions of several scenes about principal axes.
-pub(super) fn motions(scenes: Vec<Result<Scene, Error>>, _: Served, stop: &AtomicBool) -> Vec<Result<Motion, Error>> {
-    scenes.into_iter().map(|scene| scene.and_then(|scene| motion(scene, stop))).collect()
 }

@@ -9,7 +9,7 @@ use nalgebra::{Quaternion, UnitQuaternion};
 
 use super::free::{self, Preparation};
 use crate::error::Error;
-use crate::input::options::Method;
+use crate::input::options::{Method, Served};
 use crate::input::scene::Scene;
 use crate::integration::dense::Cursor;
 use crate::integration::integrated::Integrated;
@@ -104,7 +104,7 @@ fn checked(
     if !is_measured && departure(&Integrated::unmeasured(&compared, stop)?) <= bound {
         return Ok(bound);
     }
-    let integration = Integrated::new(&compared, "", stop)?;
+    let integration = Integrated::new(&compared, "", (Served::Scene, stop))?;
     let seen = departure(&integration);
     let measured = (SAFETY * seen * growth + integration.error).min(PI);
     Ok(match seen - integration.error > bound {
