@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::expansion::{Equations, Workspace};
 use super::linear::Linear;
-use super::path_series::PathSeries;
+use super::paths::path_series::PathSeries;
 use super::series::{ROWS, Series, StateLanes, add_product, add_scaled};
 use super::torques::{PolynomialSeries, Torques};
 use crate::input::scene::Scene;

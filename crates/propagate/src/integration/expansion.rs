@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::path_series::PathSeries;
+use super::paths::path_series::PathSeries;
 use super::products::{Factors, LAST, NEXT, ProductSums};
 use super::series::{
     Coefficients, RECIPROCALS, ROWS, Row, Series, StateLanes, ZERO, add_product, added, four, largest, norm, tiled,

@@ -9,7 +9,7 @@ use pulp::Arch;
 use super::bound::{FLOOR, MeasuredSteps, Profile, ReinterpolatedSteps, with_interpolation};
 use super::expansion::Equations;
 use super::integrator::{KeptSteps, Precision, Runner, Side, Step, StepsSoFar};
-use super::path_series::PathSeries;
+use super::paths::path_series::PathSeries;
 use super::rates::{covered, of_interpolation, rates_of_orbit, rates_of_sources, rates_of_table, too_coarse};
 use super::series::{Row, largest};
 use super::step_errors::StepErrors;

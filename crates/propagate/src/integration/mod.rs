@@ -9,18 +9,14 @@
 
 mod bound;
 pub(crate) mod columns;
-mod conic;
 pub(crate) mod dense;
 mod expansion;
-mod field;
 mod growth;
 pub(crate) mod integrated;
 pub(crate) mod integrator;
-mod interpolation;
 mod judged;
-mod law_series;
 mod linear;
-mod path_series;
+mod paths;
 mod products;
 pub(crate) mod prospect;
 pub(crate) mod rates;

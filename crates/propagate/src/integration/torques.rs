@@ -8,9 +8,9 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::interpolation::Table;
-use super::law_series::law_series;
-use super::path_series::PathSeries;
+use super::paths::interpolation::Table;
+use super::paths::law_series::law_series;
+use super::paths::path_series::PathSeries;
 use super::rates::falls;
 use super::series::{ROWS, Scalars, Series, ZERO, product};
 use crate::input::distance_law::DistanceLaw;

@@ -23,7 +23,7 @@ use super::expansion::{Equations, Workspace};
 use super::integrated::Problem;
 use super::integrator::{AT_ONCE, MOST_STEPS, Precision, Runner, affordable, next_end};
 use super::linear::Linear;
-use super::path_series::PathSeries;
+use super::paths::path_series::PathSeries;
 use super::torques::Torques;
 use crate::error::Error;
 use crate::input::scene::Scene;

@@ -2,7 +2,7 @@
 //!
 //! - As the user states it: `elements.rs` (with `from_state.rs` and `oblate.rs`), `table.rs`; `disturbing_body.rs` is an enum of the two.
 //! - The position at a time: of an ellipse in lanes in `position.rs`, with Kepler's equation in `kepler.rs`; of any orbit at one time in `from_state.rs`, with
-//!   `conic.rs` and `hyperbola.rs`; of a table in `table.rs`. The integration has series in time of its own (`integration/path_series.rs`).
+//!   `conic.rs` and `hyperbola.rs`; of a table in `table.rs`. The integration has series in time of its own (`integration/paths`).
 //! - (a/r)³ r̂r̂ as a function of time: its turns in `tensor.rs`, time derivatives in `derivatives.rs`, harmonics of the mean anomaly in `hansen.rs`, sizes within a span in `span.rs`.
 
 pub(crate) mod conic;

@@ -6,13 +6,13 @@ use std::sync::Arc;
 
 use andoyer_double::two_sum;
 
-use super::series::{GRAVITY, ROWS, Scalars, Series, power, product};
+use crate::integration::series::{GRAVITY, ROWS, Scalars, Series, power, product};
 use crate::numerics::scaling::scaled;
 use crate::orbit::table::{TabulatedOrbit, taylor};
 
 /// A table in the unit of the integration.
 #[derive(Clone, Debug)]
-pub(super) struct Table {
+pub(crate) struct Table {
     orbit: Arc<TabulatedOrbit>,
     /// Times from the epoch, in double-double.
     knots: Arc<Vec<(f64, f64)>>,
@@ -29,12 +29,12 @@ pub(super) struct Table {
 
 impl Table {
     /// The length by which positions are divided: the first distance.
-    pub(super) fn length(orbit: &TabulatedOrbit) -> f64 {
+    pub(crate) fn length(orbit: &TabulatedOrbit) -> f64 {
         let [x, y, z] = orbit.positions()[0];
         x.hypot(y).hypot(z)
     }
 
-    pub(super) fn new(
+    pub(crate) fn new(
         orbit: &Arc<TabulatedOrbit>,
         (epoch, exponent): (f64, i32),
         (strength, power): (f64, f64),
@@ -47,7 +47,7 @@ impl Table {
         Self { orbit: orbit.clone(), knots, length, exponent, strength, power, earlier: None }
     }
 
-    pub(super) fn neighbouring(&self, earlier: bool) -> Self {
+    pub(crate) fn neighbouring(&self, earlier: bool) -> Self {
         Self { earlier: Some(earlier), ..self.clone() }
     }
 
@@ -57,7 +57,7 @@ impl Table {
         after.clamp(1, self.knots.len() - 1) - 1
     }
 
-    pub(super) fn next_knot(&self, time: f64, forward: bool) -> Option<(f64, f64)> {
+    pub(crate) fn next_knot(&self, time: f64, forward: bool) -> Option<(f64, f64)> {
         if forward {
             self.knots.get(self.knots.partition_point(|knot| knot.0 <= time)).copied()
         } else {
@@ -66,12 +66,12 @@ impl Table {
     }
 
     /// The number of intervals between the epoch and a time, that of the time included.
-    pub(super) fn passed(&self, time: (f64, f64)) -> f64 {
+    pub(crate) fn passed(&self, time: (f64, f64)) -> f64 {
         self.interval(time).abs_diff(self.interval((0.0, 0.0))) as f64 + 1.0
     }
 
     /// Newton's divided differences, expanded about the time. Returns a radius of convergence: that of a straight path, and less of a bent one.
-    pub(super) fn series(&self, time: ((f64, f64), bool), order: usize, out: &mut Series) -> f64 {
+    pub(crate) fn series(&self, time: ((f64, f64), bool), order: usize, out: &mut Series) -> f64 {
         let (position, factor, nodes) = self.expanded(time, order);
         for (k, row) in out.iter_mut().enumerate().take(order) {
             let [x, y, z] = position.each_ref().map(|p| product(p, &factor, k));
@@ -83,7 +83,7 @@ impl Table {
     }
 
     /// The position, the factor with the power of the distance, and the number of times of the polynomial.
-    pub(super) fn expanded(
+    pub(crate) fn expanded(
         &self,
         (time, backward): ((f64, f64), bool),
         order: usize,

@@ -1,10 +1,10 @@
 //! A law of the distance in the series of a motion: Clenshaw's recurrence with series in the place of numbers.
 
-use super::series::{ROWS, Scalars, product};
 use crate::input::distance_law::DistanceLaw;
+use crate::integration::series::{ROWS, Scalars, product};
 
 /// The first `order` coefficients of a law, from those of r₀/r.
-pub(super) fn law_series(law: &DistanceLaw, ratio: &Scalars, order: usize) -> Scalars {
+pub(crate) fn law_series(law: &DistanceLaw, ratio: &Scalars, order: usize) -> Scalars {
     let [a, b] = law.argument();
     let mut t = ratio.map(|part| a * part);
     t[0] += b;

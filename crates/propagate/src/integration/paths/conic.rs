@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use super::series::{GRAVITY, RECIPROCALS, ROWS, Row, Scalars, Series, ZERO, add_scaled, product};
+use crate::integration::series::{GRAVITY, RECIPROCALS, ROWS, Row, Scalars, Series, ZERO, add_scaled, product};
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
 use crate::orbit::conic::ConicPoint;
@@ -16,7 +16,7 @@ use crate::simd::instruction_set::InstructionSet;
 
 /// A body on an ellipse or a hyperbola.
 #[derive(Clone, Debug)]
-pub(super) struct Conic {
+pub(crate) struct Conic {
     mean_anomaly: Phase,
     /// Time from the pericentre's passage to the epoch, in the unit of the integration.
     since_pericentre: f64,
@@ -39,14 +39,14 @@ pub(super) struct Conic {
     /// The directions to the pericentre and a quarter turn further, inertial, at the epoch.
     axes: [Row; 2],
     /// The series is `strength` times this power of the distance times the position: √(3μ) and −5/2 for the gravity gradient.
-    pub(super) strength: f64,
+    pub(crate) strength: f64,
     power: f64,
     /// Exponent of the unit of time.
     exponent: i32,
 }
 
 impl Conic {
-    pub(super) fn new(orbit: &Orbit, (epoch, exponent): (f64, i32), (strength, power): (f64, f64)) -> Self {
+    pub(crate) fn new(orbit: &Orbit, (epoch, exponent): (f64, i32), (strength, power): (f64, f64)) -> Self {
         let [node, argument] = orbit.node_and_argument(epoch);
         let [_, eccentricity, time_of_pericentre, ..] = orbit.elements();
         let root = ((1.0 - eccentricity) * (1.0 + eccentricity)).abs().sqrt();
@@ -81,7 +81,7 @@ impl Conic {
     }
 
     #[inline(always)]
-    pub(super) fn series<S: InstructionSet>(
+    pub(crate) fn series<S: InstructionSet>(
         &self,
         simd: S,
         (high, low): (f64, f64),
@@ -131,7 +131,7 @@ impl Conic {
     /// ```
     ///
     /// with the opposite signs and η² = e² − 1 on a hyperbola.
-    pub(super) fn by_elements<S: InstructionSet>(&self, simd: S, (high, low): (f64, f64), order: usize) -> [Series; 6] {
+    pub(crate) fn by_elements<S: InstructionSet>(&self, simd: S, (high, low): (f64, f64), order: usize) -> [Series; 6] {
         let elapsed = (scaled(high, -self.exponent), scaled(low, -self.exponent));
         let at = (elapsed, order);
         let mut place = ZERO;
@@ -195,7 +195,7 @@ impl Conic {
     }
 
     /// The series of the factor and the power of the distance.
-    pub(super) fn factor<S: InstructionSet>(&self, simd: S, (high, low): (f64, f64), order: usize) -> Scalars {
+    pub(crate) fn factor<S: InstructionSet>(&self, simd: S, (high, low): (f64, f64), order: usize) -> Scalars {
         self.conic(simd, self.mean_at((high, low)), (order, &IN_PLANE), &mut ZERO.clone()).factor
     }
 
@@ -209,7 +209,7 @@ impl Conic {
     }
 
     /// The integral of dt/R from the epoch to a time; 0 for a circle, whose R is infinite.
-    pub(super) fn passed(&self, (high, low): (f64, f64)) -> f64 {
+    pub(crate) fn passed(&self, (high, low): (f64, f64)) -> f64 {
         let of = |elapsed: (f64, f64)| {
             let (turns, mean) = self.mean(elapsed);
             2.0 * turns * (PI / self.singularity).asinh() + (mean / self.singularity).asinh()

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::conic::Conic;
 use super::field::FieldSeries;
 use super::interpolation::Table;
-use super::series::{GRAVITY, Scalars, Series};
+use crate::integration::series::{GRAVITY, Scalars, Series};
 use crate::numerics::scaling::scaled;
 use crate::orbit::disturbing_body::DisturbingBody;
 use crate::orbit::elements::Orbit;
@@ -18,7 +18,7 @@ use crate::torque::strength;
 
 /// The path of a body, with times and rates in the unit of the integration.
 #[derive(Clone, Debug)]
-pub(super) enum PathSeries {
+pub(crate) enum PathSeries {
     Conic(Box<Conic>),
     Tabulated(Box<Table>),
     Field(Box<FieldSeries>),
@@ -26,7 +26,7 @@ pub(super) enum PathSeries {
 
 impl PathSeries {
     /// From the epoch of the scene and the exponent of the unit of rates.
-    pub(super) fn new(body: &DisturbingBody, epoch: f64, exponent: i32) -> Self {
+    pub(crate) fn new(body: &DisturbingBody, epoch: f64, exponent: i32) -> Self {
         match body {
             DisturbingBody::Orbit(orbit) => {
                 let strength = (2.0 * strength(orbit.strength_in(exponent))).sqrt();
@@ -41,22 +41,22 @@ impl PathSeries {
     }
 
     /// A path on an orbit whose series is a factor times a power of the distance in semi-major axes times the position.
-    pub(super) fn of_orbit(orbit: &Orbit, (epoch, exponent): (f64, i32), factor: (f64, f64)) -> Self {
+    pub(crate) fn of_orbit(orbit: &Orbit, (epoch, exponent): (f64, i32), factor: (f64, f64)) -> Self {
         Self::Conic(Box::new(Conic::new(orbit, (epoch, exponent), factor)))
     }
 
     /// A path by a table whose series is a factor times a power of the distance times the position, both in units of [`Table::length`].
-    pub(super) fn of_table(table: &Arc<TabulatedOrbit>, (epoch, exponent): (f64, i32), factor: (f64, f64)) -> Self {
+    pub(crate) fn of_table(table: &Arc<TabulatedOrbit>, (epoch, exponent): (f64, i32), factor: (f64, f64)) -> Self {
         Self::Tabulated(Box::new(Table::new(table, (epoch, exponent), factor)))
     }
 
     /// The field of a dipole, whose series is a factor times a power of its size times the field, both in units of the field on the equator.
-    pub(super) fn of_field(field: &DipoleField, at: (f64, i32), factor: (f64, f64)) -> Self {
+    pub(crate) fn of_field(field: &DipoleField, at: (f64, i32), factor: (f64, f64)) -> Self {
         Self::Field(Box::new(FieldSeries::new(field, at, factor)))
     }
 
     /// The series of the factor and the power of the distance alone.
-    pub(super) fn factor<S: InstructionSet>(
+    pub(crate) fn factor<S: InstructionSet>(
         &self,
         simd: S,
         (time, backward): ((f64, f64), bool),
@@ -71,7 +71,7 @@ impl PathSeries {
 
     /// The first `order` coefficients about a time after the epoch, from which a step goes on or backwards. Returns the radius of convergence in units of time.
     #[inline(always)]
-    pub(super) fn series<S: InstructionSet>(
+    pub(crate) fn series<S: InstructionSet>(
         &self,
         simd: S,
         (time, backward): ((f64, f64), bool),
@@ -86,7 +86,7 @@ impl PathSeries {
     }
 
     /// The next time after (or before) a time at which the series ends.
-    pub(super) fn next_knot(&self, time: f64, forward: bool) -> Option<(f64, f64)> {
+    pub(crate) fn next_knot(&self, time: f64, forward: bool) -> Option<(f64, f64)> {
         match self {
             Self::Conic(_) | Self::Field(_) => None,
             Self::Tabulated(table) => table.next_knot(time, forward),
@@ -95,7 +95,7 @@ impl PathSeries {
 
     /// A measure of the steps from the epoch to a time: the integral of dt/R, where R is the radius of convergence, or the number of intervals of a table. The
     /// number of steps is proportional to it.
-    pub(super) fn passed(&self, time: (f64, f64)) -> f64 {
+    pub(crate) fn passed(&self, time: (f64, f64)) -> f64 {
         match self {
             Self::Conic(orbit) => orbit.passed(time),
             Self::Tabulated(table) => table.passed(time),
@@ -104,7 +104,7 @@ impl PathSeries {
     }
 
     /// With the earlier or the later of the neighbouring polynomials, where it has a table.
-    pub(super) fn neighbouring(&self, earlier: bool) -> Self {
+    pub(crate) fn neighbouring(&self, earlier: bool) -> Self {
         match self {
             Self::Conic(_) | Self::Field(_) => self.clone(),
             Self::Tabulated(table) => Self::Tabulated(Box::new(table.neighbouring(earlier))),

@@ -1,7 +1,7 @@
 //! The series of the field of a dipole along an orbit: a factor times a power of its size times the field, in units of the field on the equator.
 
 use super::conic::Conic;
-use super::series::{ROWS, Scalars, Series, ZERO, power, product};
+use crate::integration::series::{ROWS, Scalars, Series, ZERO, power, product};
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
 use crate::orbit::field::DipoleField;
@@ -9,7 +9,7 @@ use crate::simd::instruction_set::InstructionSet;
 
 /// The field of a dipole in the unit of time of the integration.
 #[derive(Clone, Debug)]
-pub(super) struct FieldSeries {
+pub(crate) struct FieldSeries {
     /// r̂, and (R/r)³.
     direction: Conic,
     fall: Conic,
@@ -22,7 +22,7 @@ pub(super) struct FieldSeries {
 }
 
 impl FieldSeries {
-    pub(super) fn new(field: &DipoleField, (epoch, exponent): (f64, i32), (strength, power): (f64, f64)) -> Self {
+    pub(crate) fn new(field: &DipoleField, (epoch, exponent): (f64, i32), (strength, power): (f64, f64)) -> Self {
         let at = (epoch, exponent);
         Self {
             direction: Conic::new(field.orbit(), at, (1.0, -1.0)),
@@ -37,7 +37,7 @@ impl FieldSeries {
     }
 
     /// Returns the radius of convergence.
-    pub(super) fn series<S: InstructionSet>(&self, simd: S, time: (f64, f64), order: usize, out: &mut Series) -> f64 {
+    pub(crate) fn series<S: InstructionSet>(&self, simd: S, time: (f64, f64), order: usize, out: &mut Series) -> f64 {
         let (field, factor, radius) = self.expanded(simd, time, order);
         for (k, row) in out.iter_mut().enumerate().take(order) {
             let [x, y, z] = field.each_ref().map(|part| product(part, &factor, k));
@@ -46,11 +46,11 @@ impl FieldSeries {
         radius
     }
 
-    pub(super) fn factor<S: InstructionSet>(&self, simd: S, time: (f64, f64), order: usize) -> Scalars {
+    pub(crate) fn factor<S: InstructionSet>(&self, simd: S, time: (f64, f64), order: usize) -> Scalars {
         self.expanded(simd, time, order).1
     }
 
-    pub(super) fn passed(&self, time: (f64, f64)) -> f64 {
+    pub(crate) fn passed(&self, time: (f64, f64)) -> f64 {
         self.direction.passed(time)
     }
 
