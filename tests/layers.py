@@ -1,5 +1,5 @@
 """Check the imports between the files of each crate and of the Python package. None may have an import circle, and no Rust module may import a name that lib.rs re-exports: it imports from
-the file. A module of crates/propagate may import only from earlier layers; lib.rs lists its modules in the order of the layers.
+the file. A module of crates/propagate may import only from earlier layers; lib.rs lists its modules in the order of the layers. A room, the files of one folder, has at most MOST_FLOORS floors.
 
     python tests/layers.py               exit status 1 for a circle, an import from a later layer or a list of imports
     python tests/layers.py --planted     the same check on invented crates and a package that have one of each
@@ -13,6 +13,7 @@ An edge goes from the file that uses a name to the file that declares the name a
 The check follows any number of re-exports in any file. Edges between a parent and its children count as any other: a child that uses a function of its parent, whose code calls the
 child, is a circle. What lib.rs declares and uses is in the file `lib`.
 A list of imports in the comment at the head of a module is refused: nothing keeps it true.
+The floors of a room are the files of its longest chain of imports. A room inside it counts alone, and so does the root of a crate, whose modules are rooms.
 The check does not see methods that are called on a value, and it leaves out comments and tests (files `tests`, and code below `#[cfg(test)]`).
 
 In Python each import is an edge, in functions and for types alone (`if TYPE_CHECKING`) too. `from package import module` is an edge to that module, not to the package.
@@ -28,6 +29,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 LAYERED = ("propagate",)
+MOST_FLOORS = 9
 
 Imports = dict[str, set[str]]
 LISTED = re.compile(r"^//!.*\b[Ii]mports (?:only )?[\[`]|^//!.*\bImports\b", re.MULTILINE)
@@ -219,6 +221,31 @@ def upwards(source: Path, edges: Imports) -> Iterator[str]:
                 yield f"{name} imports {other}, which is in a later layer"
 
 
+def chains(edges: Imports) -> dict[str, list[str]]:
+    """The longest chain of imports inside each room, of files without a circle."""
+    longest: dict[str, list[str]] = {}
+
+    def chain(name: str) -> list[str]:
+        if name not in longest:
+            room, longest[name] = name.rpartition("::")[0], [name]
+            longest[name] = max((chain(other) for other in sorted(edges[name]) if other.rpartition("::")[0] == room), key=len, default=[]) + [name]
+        return longest[name]
+
+    found: dict[str, list[str]] = {}
+    for name in sorted(edges):
+        room, here = name.rpartition("::")[0], chain(name)
+        if room and len(here) > len(found.get(room, [])):
+            found[room] = here
+    return found
+
+
+def high(edges: Imports) -> Iterator[str]:
+    """Rooms with more than MOST_FLOORS floors."""
+    for room, chain in chains(edges).items():
+        if len(chain) > MOST_FLOORS:
+            yield f"{room} has {len(chain)} floors, and at most {MOST_FLOORS} are allowed: {' <- '.join(name.rpartition('::')[2] for name in chain)}"
+
+
 def from_root(crate: Crate) -> Iterator[str]:
     """Imports of names that lib.rs re-exports."""
     names = {name for name, _ in crate.modules[""].public} - crate.modules.keys()
@@ -236,7 +263,7 @@ def problems(source: Path, layered: bool) -> list[str]:
     found = [
         f"{file.relative_to(source)} lists imports in its head" for file in sorted(source.rglob("*.rs")) if LISTED.search(file.read_text(encoding="utf-8"))
     ]
-    return found + list(from_root(crate)) + list(arrows(edges)) + (list(upwards(source, edges)) if layered else [])
+    return found + list(from_root(crate)) + list(arrows(edges)) + list(high(edges)) + (list(upwards(source, edges)) if layered else [])
 
 
 def arrows(edges: Imports) -> Iterator[str]:
@@ -304,6 +331,18 @@ PLANTED = {
         False,
         ["a.rs lists imports in its head"],
     ),
+    "a room of ten floors, and one of nine with another inside it": (
+        {
+            "lib.rs": "mod a;\nmod b;\n",
+            **{f"a/f{k}.rs": f"use super::f{k + 1}::F;\n" for k in range(9)},
+            "a/f9.rs": "use crate::b::f0::F;\n",
+            **{f"b/f{k}.rs": f"use super::f{k + 1}::F;\n" for k in range(8)},
+            "b/f8.rs": "use super::c::d::F;\n",
+            "b/c/d.rs": "pub struct F;\n",
+        },
+        False,
+        ["a has 10 floors, and at most 9 are allowed: f9 <- f8"],
+    ),
     "an import upwards": (
         {"lib.rs": "mod a;\n\nmod b;\n", "a.rs": "use crate::b::{c::C, B};\n", "b/mod.rs": "", "b/c.rs": ""},
         True,
@@ -351,12 +390,12 @@ def planted() -> list[str]:
 def main() -> int:
     """Check the crates or, with --planted, the check itself."""
     if "--planted" in sys.argv[1:]:
-        found, good = planted(), "imports: planted circles, lists, imports upwards and from the root are found"
+        found, good = planted(), "imports: planted circles, lists, high rooms, imports upwards and from the root are found"
     else:
         crates = sorted(path.parent for path in ROOT.glob("crates/*/src"))
         found = [f"crates/{crate.name}: {problem}" for crate in crates for problem in problems(crate / "src", crate.name in LAYERED)]
         found += [f"crates/py/python: {problem}" for problem in arrows(python_imports(ROOT / "crates/py/python/andoyer"))]
-        good = "imports: no circle, none upwards, none from the root of a crate, no list in a head"
+        good = f"imports: no circle, none upwards, none from the root of a crate, no list in a head, no room of more than {MOST_FLOORS} floors"
     print("\n".join(found) or good)
     return bool(found)
 

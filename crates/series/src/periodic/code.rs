@@ -3,7 +3,7 @@
 //! `from_normal` is the direct series. `to_normal` takes the deviation from the periodic motion to Floquet's frame first, then the inverse series.
 
 use super::named::DrivenNormalForm;
-use super::row::Periodic;
+use super::rows::row::Periodic;
 use crate::birkhoff::code::{About, RESULT, renamed};
 use crate::birkhoff::mode::real_in_complex;
 use crate::emit::Language;

@@ -7,9 +7,9 @@ use std::collections::BTreeMap;
 use num_complex::Complex;
 use num_traits::Zero;
 
-use super::frame::fastest;
-use super::motion::PeriodicMotion;
-use super::row::Periodic;
+use super::motion::frame::fastest;
+use super::motion::solution::PeriodicMotion;
+use super::rows::row::Periodic;
 use crate::error::Error;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;

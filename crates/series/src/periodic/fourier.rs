@@ -5,7 +5,7 @@ use num_traits::Zero;
 
 use super::form::DrivenForm;
 use super::images::{ImageGroup, ImageTerm};
-use super::row::{Periodic, product};
+use super::rows::row::{Periodic, product};
 use crate::birkhoff::map::check;
 use crate::error::Error;
 

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex;
 
-use super::grid::Grid;
-use super::row::Periodic;
+use super::rows::grid::Grid;
+use super::rows::row::Periodic;
 use crate::birkhoff::PhaseSpace;
 use crate::error::Error;
 use crate::monomial::Monomial;

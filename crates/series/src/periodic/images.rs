@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::divisors::turns;
-use super::row::Periodic;
+use super::rows::row::Periodic;
 use crate::monomial::Monomial;
 use crate::polynomial::Polynomial;
 

@@ -4,9 +4,9 @@ use num_complex::Complex;
 
 use super::form::DrivenForm;
 use super::hamiltonian::{DrivenHamiltonian, SampledHamiltonian, terms_at};
-use super::row::Periodic;
-use super::search::DrivenOptions;
-use super::work::MOST_WORK;
+use super::motion::search::DrivenOptions;
+use super::motion::work::MOST_WORK;
+use super::rows::row::Periodic;
 use crate::birkhoff::actions::action_texts;
 use crate::birkhoff::phases::cosines;
 use crate::birkhoff::resonances::check_smallest_divisor;

@@ -3,7 +3,7 @@
 use num_complex::Complex;
 
 use super::form::DrivenForm;
-use super::row::Periodic;
+use super::rows::row::Periodic;
 use super::state::powers;
 use crate::birkhoff::Mode;
 use crate::birkhoff::map::check;

@@ -5,11 +5,11 @@ use std::f64::consts::TAU;
 use nalgebra::DMatrix;
 use num_complex::Complex;
 
-use super::grid::Grid;
-use super::row::Periodic;
 use super::work::{Going, of_taylor_step};
 use crate::birkhoff::matrix::{Matrix, turned_rows};
 use crate::error::Error;
+use crate::periodic::rows::grid::Grid;
+use crate::periodic::rows::row::Periodic;
 
 /// The order of the series; a step times the rates of S and of its harmonics is at most `REACH`, so that the first neglected term is below 1e-17.
 const ORDER: usize = 28;

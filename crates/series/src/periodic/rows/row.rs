@@ -84,7 +84,7 @@ impl Periodic {
     }
 
     /// Σ factor · function.
-    pub(super) fn combined(terms: &[(Complex<f64>, &Self)]) -> Self {
+    pub(crate) fn combined(terms: &[(Complex<f64>, &Self)]) -> Self {
         let mut sum = RawPeriodic::default();
         for (factor, function) in terms {
             Self::raw_add_product(&mut sum, &function.raw(), &RawPeriodic::Constant(*factor), 1);
@@ -120,7 +120,7 @@ impl Periodic {
     }
 
     /// The bytes that the values take.
-    pub(super) fn memory(&self) -> usize {
+    pub(crate) fn memory(&self) -> usize {
         size_of::<Self>() + if let Row(row) = self { size_of_val(&row[..]) } else { 0 }
     }
 
@@ -133,7 +133,7 @@ impl Periodic {
 }
 
 /// The product of two matrices; each entry is one fused sum.
-pub(super) fn product(a: &[Vec<Periodic>], b: &[Vec<Periodic>]) -> Vec<Vec<Periodic>> {
+pub(crate) fn product(a: &[Vec<Periodic>], b: &[Vec<Periodic>]) -> Vec<Vec<Periodic>> {
     let raw = |matrix: &[Vec<Periodic>]| -> Vec<Vec<RawPeriodic>> {
         matrix.iter().map(|row| row.iter().map(Periodic::raw).collect()).collect()
     };

@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::grid::Grid;
-use super::hamiltonian::DrivenHamiltonian;
-use super::row::Periodic;
 use super::work::{Going, of_values};
 use crate::error::Error;
 use crate::monomial::MAX_EXPONENT;
+use crate::periodic::hamiltonian::DrivenHamiltonian;
+use crate::periodic::rows::grid::Grid;
+use crate::periodic::rows::row::Periodic;
 use crate::polynomial::Polynomial;
 
 /// Steps of the method of Runge and Kutta over a period, at least: Newton's iteration takes their error away.

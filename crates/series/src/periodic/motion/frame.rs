@@ -8,13 +8,13 @@ use std::f64::consts::PI;
 use num_complex::Complex;
 use num_traits::Zero;
 
-use super::grid::Grid;
-use super::row::{Periodic, product};
 use super::start::{Frame, eigenvalues, start, start_of_one, still};
 use super::work::{Going, ends, of_frame};
 use crate::birkhoff::matrix::{Matrix, symplectic_inverse, turned_rows, unit};
 use crate::birkhoff::mode::Mode;
 use crate::error::Error;
+use crate::periodic::rows::grid::Grid;
+use crate::periodic::rows::row::{Periodic, product};
 
 /// A step below this is rounding.
 pub(super) const REACHED: f64 = 1e-14;
@@ -153,7 +153,7 @@ pub(super) fn rounding(change: &Matrix<Periodic>) -> f64 {
 }
 
 /// The largest modulus of the frequencies and rates of modes.
-pub(super) fn fastest(modes: &[Mode<f64>]) -> f64 {
+pub(crate) fn fastest(modes: &[Mode<f64>]) -> f64 {
     modes.iter().map(|one| one.frequency().norm()).fold(0.0, f64::max)
 }
 

@@ -10,9 +10,7 @@ use num_complex::Complex;
 use num_traits::Zero;
 
 use super::branch::continued;
-use super::grid::Grid;
 use super::monodromy::monodromy;
-use super::row::Periodic;
 use super::work::Going;
 use crate::birkhoff::PhaseSpace;
 use crate::birkhoff::diagonal::Diagonal;
@@ -21,6 +19,8 @@ use crate::birkhoff::mode::Mode;
 use crate::birkhoff::schur::eigenvalues as spectrum;
 use crate::error::Error;
 use crate::monomial::Monomial;
+use crate::periodic::rows::grid::Grid;
+use crate::periodic::rows::row::Periodic;
 use crate::polynomial::Polynomial;
 
 /// A double multiplier 1 or −1, to this distance or to the rounding errors of Φ, the second number times its largest entry, has no Cayley transform that floats diagonalize: Φ is turned
@@ -193,7 +193,7 @@ fn diagonal(matrix: &[Vec<f64>]) -> Result<Diagonal<f64>, Error> {
 type Columns = Vec<Vec<Complex<f64>>>;
 
 /// The eigenvalues of u and of U: −iω and iω.
-pub(super) fn eigenvalues(mode: &Mode<f64>) -> [Complex<f64>; 2] {
+pub(crate) fn eigenvalues(mode: &Mode<f64>) -> [Complex<f64>; 2] {
     let turned = Complex::<f64>::i() * mode.frequency();
     [-turned, turned]
 }

@@ -134,22 +134,22 @@ impl Grid {
     }
 
     /// The number of times of a phase.
-    pub(super) fn count(&self, phase: usize) -> usize {
+    pub(crate) fn count(&self, phase: usize) -> usize {
         self.axes[phase].count
     }
 
     /// The grid of the first phase alone.
-    pub(super) fn first(&self) -> Self {
+    pub(crate) fn first(&self) -> Self {
         Self { axes: self.axes[..1.min(self.axes.len())].to_vec() }
     }
 
     /// The same times with rates that are larger by a factor.
-    pub(super) fn faster(&self, factor: f64) -> Self {
+    pub(crate) fn faster(&self, factor: f64) -> Self {
         Self { axes: self.axes.iter().map(|axis| Axis { rate: axis.rate * factor, ..axis.clone() }).collect() }
     }
 
     /// The mean of a function over all phases but the first, on the grid of the first.
-    pub(super) fn mean_over_others(&self, function: &Periodic) -> Periodic {
+    pub(crate) fn mean_over_others(&self, function: &Periodic) -> Periodic {
         let others = self.times() / self.first().times();
         match function {
             Periodic::Constant(_) => function.clone(),
@@ -160,7 +160,7 @@ impl Grid {
     }
 
     /// A function of the first phase as one of all phases.
-    pub(super) fn extended(&self, function: &Periodic) -> Periodic {
+    pub(crate) fn extended(&self, function: &Periodic) -> Periodic {
         let others = self.times() / self.first().times();
         match function {
             Periodic::Constant(_) => function.clone(),
@@ -181,7 +181,7 @@ impl Grid {
     }
 
     /// The index of the harmonic with the opposite multiples.
-    pub(super) fn opposite(&self, index: usize) -> usize {
+    pub(crate) fn opposite(&self, index: usize) -> usize {
         let places = self.places(index).into_iter().zip(&self.axes);
         places.fold(0, |sum, (place, axis)| sum * axis.count + (axis.count - place) % axis.count)
     }
@@ -232,7 +232,7 @@ impl Grid {
     }
 
     /// Whether a harmonic is solved for: its products with others up to it do not fold back to it. The multiples of each phase are at most a third of its times.
-    pub(super) fn is_solved(&self, index: usize) -> bool {
+    pub(crate) fn is_solved(&self, index: usize) -> bool {
         self.multiples(index).iter().zip(&self.axes).all(|(j, axis)| 3 * j.unsigned_abs() <= axis.count as u64)
     }
 
@@ -248,7 +248,7 @@ impl Grid {
     }
 
     /// A function of another grid of the same phases, with the harmonics that both grids hold.
-    pub(super) fn with_harmonics_of(&self, other: &Self, function: &Periodic) -> Periodic {
+    pub(crate) fn with_harmonics_of(&self, other: &Self, function: &Periodic) -> Periodic {
         if matches!(function, Periodic::Constant(_)) {
             return function.clone();
         }

@@ -9,15 +9,15 @@ use num_complex::Complex;
 use num_traits::Zero;
 
 use super::frame::{NOISE, REACHED, SLOWEST, SMALL, fastest, frame, rounding, solved};
-use super::grid::Grid;
-use super::hamiltonian::DrivenHamiltonian;
-use super::row::{Periodic, product};
 use super::start::{Frame, eigenvalues};
 use super::work::{Going, ends, of_all_times, of_step};
 use crate::birkhoff::matrix::{Matrix, symplectic_inverse, turned, turned_rows, unit};
 use crate::birkhoff::mode::Mode;
 use crate::error::Error;
 use crate::monomial::Monomial;
+use crate::periodic::hamiltonian::DrivenHamiltonian;
+use crate::periodic::rows::grid::Grid;
+use crate::periodic::rows::row::{Periodic, product};
 use crate::polynomial::Polynomial;
 
 /// Most Newton steps.
@@ -35,16 +35,16 @@ const ROUNDED: f64 = 32.0;
 /// A periodic motion and the frame of Floquet about it.
 #[derive(Clone, Debug)]
 pub struct PeriodicMotion {
-    pub(super) grid: Grid,
+    pub(crate) grid: Grid,
     /// x̄: q₁, p₁, q₂, …
-    pub(super) origin: Vec<Periodic>,
+    pub(crate) origin: Vec<Periodic>,
     /// P: rows q₁, p₁, …, columns u₁, U₁, …; for a centre u = (q + ip)/2 and U = 2iū of the real normal variables.
-    pub(super) change: Matrix<Periodic>,
-    pub(super) modes: Vec<Mode<f64>>,
+    pub(crate) change: Matrix<Periodic>,
+    pub(crate) modes: Vec<Mode<f64>>,
     /// For each phase the largest of the last harmonics of x̄, P and the derivatives of H.
-    pub(super) tails: Vec<f64>,
+    pub(crate) tails: Vec<f64>,
     /// Whether x̄ is opposite to the first step from the equilibrium, the response to a weak drive.
-    pub(super) is_opposite: bool,
+    pub(crate) is_opposite: bool,
 }
 
 /// Where Newton's iteration begins.
@@ -58,12 +58,12 @@ pub struct Begin {
 
 impl Begin {
     /// At a curve on a grid.
-    pub(super) fn at(grid: Grid, origin: Vec<Periodic>) -> Self {
+    pub(crate) fn at(grid: Grid, origin: Vec<Periodic>) -> Self {
         Self { grid, origin, frame: None, is_opposite: false }
     }
 
     /// At a curve whose side of the response to a weak drive, if there is one, is known.
-    pub(super) fn beside(self, response: Option<&[Periodic]>) -> Self {
+    pub(crate) fn beside(self, response: Option<&[Periodic]>) -> Self {
         let is_opposite = response.is_some_and(|response| alike(&self.origin, response) < 0.0);
         Self { is_opposite, ..self }
     }
@@ -91,29 +91,29 @@ impl PeriodicMotion {
     }
 
     /// This motion as that to begin with, and its frame if the grid holds it: turns between the times of a coarse grid are counted wrongly.
-    pub(super) fn begin(&self) -> Begin {
+    pub(crate) fn begin(&self) -> Begin {
         let is_held = self.tails.iter().all(|&tail| tail < HELD);
         let frame = is_held.then(|| (self.change.clone(), self.modes.clone()));
         Begin { grid: self.grid.clone(), origin: self.origin.clone(), frame, is_opposite: self.is_opposite }
     }
 
     /// The last harmonics of a frame on any grid are at least some rounding errors.
-    pub(super) fn rounding(&self) -> f64 {
+    pub(crate) fn rounding(&self) -> f64 {
         ROUNDED * rounding(&self.change)
     }
 
     /// The largest variable of x̄.
-    pub(super) fn size(&self) -> f64 {
+    pub(crate) fn size(&self) -> f64 {
         size(&self.origin)
     }
 
     /// The variables q₁, p₁, … as x̄ + P w, in the slots u₁, U₁, ….
-    pub(super) fn variables(&self) -> Result<Vec<Polynomial<Periodic>>, Error> {
+    pub(crate) fn variables(&self) -> Result<Vec<Polynomial<Periodic>>, Error> {
         self.origin.iter().zip(&self.change).map(|(origin, row)| form(origin, row)).collect()
     }
 
     /// w = P⁻¹ (x − x̄) as forms in the variables q₁, p₁, ….
-    pub(super) fn deviations(&self) -> Result<Vec<Polynomial<Periodic>>, Error> {
+    pub(crate) fn deviations(&self) -> Result<Vec<Polynomial<Periodic>>, Error> {
         let deviation = |row: &Vec<Periodic>| {
             let products = row.iter().zip(&self.origin).map(|(c, x)| c.clone() * x.clone());
             form(&-products.fold(Periodic::zero(), |sum, product| sum + product), row)

@@ -3,12 +3,12 @@
 //! The iteration begins at the equilibrium, or at the curve through a state that the user knows. Where it ends nowhere, as at the resonance of the phase with a mode, whose first step is a
 //! division by 0, it begins at the periodic motion of a neighbouring rate.
 
-use super::grid::Grid;
-use super::hamiltonian::DrivenHamiltonian;
-use super::motion::{Begin, PeriodicMotion, response};
 use super::orbit::orbit;
+use super::solution::{Begin, PeriodicMotion, response};
 use super::work::{Going, ends, of_step, too_large};
 use crate::error::Error;
+use crate::periodic::hamiltonian::DrivenHamiltonian;
+use crate::periodic::rows::grid::Grid;
 use crate::triangle::{Progress, stop};
 
 /// Harmonics to begin with. All numbers of them are multiples of four: one time more than a multiple of eight suits vector instructions.
@@ -33,13 +33,13 @@ pub struct DrivenOptions {
     pub harmonics: usize,
     /// A divisor below this, relative to the largest frequency, is refused.
     pub smallest_divisor: f64,
-    /// Most work of the search for the periodic motion, in multiplications of two floats: [`MOST_WORK`](super::MOST_WORK), or more where somebody asks for it.
+    /// Most work of the search for the periodic motion, in multiplications of two floats: [`MOST_WORK`](crate::periodic::MOST_WORK), or more where somebody asks for it.
     pub work: f64,
 }
 
 /// The periodic motion on a grid that is fine enough: it holds the coefficients, and the last harmonics are small. A grid that is too coarse can have no solution; after
 /// `FAILURES` of them there is none. With the work of the search.
-pub(super) fn settled(
+pub(crate) fn settled(
     system: &dyn DrivenHamiltonian,
     rates: &[f64],
     DrivenOptions { order, tolerance, harmonics, work: most, .. }: DrivenOptions,

@@ -3,9 +3,9 @@
 //! The constants are the times of single steps, on grids of 9 to 9,409 times, over the time of a multiplication in the steps of two phases; those of one phase are up to three times as
 //! fast. [`MOST_WORK`] is a few seconds of one core at most. The count is the same on every machine.
 
-use super::grid::Grid;
-use super::hamiltonian::DrivenHamiltonian;
 use crate::error::Error;
+use crate::periodic::hamiltonian::DrivenHamiltonian;
+use crate::periodic::rows::grid::Grid;
 
 /// Most work of a solution that nobody asks for: of a periodic motion and its frame on all grids, and of what follows.
 pub const MOST_WORK: f64 = 2e9;

@@ -11,10 +11,10 @@ use std::f64::consts::TAU;
 use nalgebra::DMatrix;
 use num_complex::Complex;
 
-use super::grid::Grid;
-use super::row::Periodic;
 use crate::birkhoff::matrix::{Matrix, pairing};
 use crate::birkhoff::mode::Mode;
+use crate::periodic::rows::grid::Grid;
+use crate::periodic::rows::row::Periodic;
 
 /// The functions are followed at so many times the times of the grid.
 const FINER: usize = 4;
