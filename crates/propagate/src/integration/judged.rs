@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
 
 use super::bound::Profile;
-use super::integrated::Problem;
 use super::integrator::{Precision, Side};
+use super::problem::Problem;
 use super::step_errors::StepErrors;
 use crate::error::Error;
 

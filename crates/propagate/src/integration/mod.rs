@@ -17,6 +17,7 @@ pub(crate) mod integrator;
 mod judged;
 mod linear;
 mod paths;
+mod problem;
 mod products;
 pub(crate) mod prospect;
 pub(crate) mod rates;

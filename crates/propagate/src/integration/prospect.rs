@@ -1,7 +1,7 @@
 //! What an integration will cost, and how accurate it will be, before it is made.
 
 use super::bound::{FLOOR, INPUT, SAFETY};
-use super::integrated::Problem;
+use super::problem::Problem;
 use super::step_errors::ROUNDING;
 use crate::input::scene::Scene;
 use crate::input::torque::Torque;

@@ -5,8 +5,9 @@ use pulp::Arch;
 
 use super::dense::Cursor;
 use super::expansion::Equations;
-use super::integrated::{Integrated, Problem};
+use super::integrated::Integrated;
 use super::integrator::{Precision, Step};
+use super::problem::Problem;
 use super::products::NEXT;
 use super::prospect::prospect;
 use super::series::{Row, norm};

@@ -20,10 +20,10 @@ use pulp::Arch;
 
 use super::columns::{ColumnBlock, ERROR, ForcedColumn, LANES, PartialsRows};
 use super::expansion::{Equations, Workspace};
-use super::integrated::Problem;
 use super::integrator::{AT_ONCE, MOST_STEPS, Precision, Runner, affordable, next_end};
 use super::linear::Linear;
 use super::paths::path_series::PathSeries;
+use super::problem::Problem;
 use super::torques::Torques;
 use crate::error::Error;
 use crate::input::scene::Scene;
