@@ -10,8 +10,9 @@ use crate::gravity_gradient::disturbed::DisturbedMotion;
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::generator::{Correction, MeanLanes};
-use crate::motion::forced::{End, Forced, InLanes, fill_in_lanes};
+use crate::motion::forced::{End, Forced};
 use crate::orbit::position::{Elapsed, Path};
+use crate::simd::circles::{Evaluate, Instants};
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::halt::Halt;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
@@ -84,12 +85,16 @@ impl DisturbedMotion {
     }
 }
 
-impl InLanes for DisturbedMotion {
+impl Evaluate for DisturbedMotion {
+    const BY_CIRCLES: bool = false;
+
     #[inline(always)]
     fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
         &self,
-        elapsed: Elapsed<S>,
+        _: S,
+        at: impl Instants<S>,
     ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
+        let elapsed = at.elapsed();
         let state = self.state(elapsed);
         let relative = self.relative(&state);
         let zero = elapsed.0.all(0.0);
@@ -125,7 +130,7 @@ impl Forced for DisturbedMotion {
     }
 
     fn fill(&self, arch: Arch, run: Run<'_>) -> Result<(), Halt> {
-        fill_in_lanes(self, arch, run)
+        run.in_lanes(arch, self)
     }
 
     fn ends(&self, phases: End) -> [End; 2] {

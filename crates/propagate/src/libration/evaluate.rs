@@ -12,10 +12,11 @@ use pulp::Arch;
 use super::course::MOST_POWERS;
 use super::solution::Libration;
 use super::waves::{PHASES, Waves, inner_phase, outer_phases};
-use crate::motion::forced::{Forced, InLanes, fill_in_lanes};
+use crate::motion::forced::Forced;
 use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
 use crate::numerics::phase::Phase;
+use crate::simd::circles::{Evaluate, Instants};
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::halt::Halt;
 use crate::simd::instruction_set::InstructionSet;
@@ -184,12 +185,16 @@ impl LibrationEvaluator {
     }
 }
 
-impl InLanes for LibrationEvaluator {
+impl Evaluate for LibrationEvaluator {
+    const BY_CIRCLES: bool = false;
+
     #[inline(always)]
     fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
         &self,
-        elapsed: (Lanes<S>, Lanes<S>),
+        _: S,
+        at: impl Instants<S>,
     ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
+        let elapsed = at.elapsed();
         let zero = elapsed.0.all(0.0);
         let ([psi, p_psi], [theta, phi, p_theta, p_phi]) = self.variables::<S, RATES>(elapsed);
         let half = zero.all(0.5 / TAU);
@@ -221,7 +226,7 @@ impl Forced for LibrationEvaluator {
     }
 
     fn fill(&self, arch: Arch, run: Run<'_>) -> Result<(), Halt> {
-        fill_in_lanes(self, arch, run)
+        run.in_lanes(arch, self)
     }
 }
 

@@ -17,7 +17,6 @@ use pulp::Arch;
 
 use super::forced::Forced;
 use crate::numerics::phase::Phase;
-use crate::simd::circles::Evaluate;
 use crate::simd::grid::{GROUP, Grid};
 use crate::simd::halt::Halt;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
@@ -97,8 +96,8 @@ impl Evaluation<'_> {
             let run = Run { epoch, reach, times, outputs, grid, stop };
             return match trajectory {
                 Trajectory::Forced(motion) => motion.fill(arch, run),
-                Trajectory::Steady(steady) => dispatch(arch, ByCircles { motion: &**steady, run }),
-                Trajectory::Wobble(wobble) => dispatch(arch, ByCircles { motion: &**wobble, run }),
+                Trajectory::Steady(steady) => run.in_lanes(arch, &**steady),
+                Trajectory::Wobble(wobble) => run.in_lanes(arch, &**wobble),
                 Trajectory::Passage(passage) => dispatch(arch, ByPassage { passage, run }),
             };
         }
@@ -111,21 +110,6 @@ impl Evaluation<'_> {
             || self.spread(right, right_outputs, grid, threads - half),
         );
         first.and(second.map_err(|halt| halt.later(place)))
-    }
-}
-
-/// The times of one thread, for a motion that depends on its phases.
-struct ByCircles<'a, C> {
-    motion: &'a C,
-    run: Run<'a>,
-}
-
-impl<C: Evaluate> Task for ByCircles<'_, C> {
-    type Output = Result<(), Halt>;
-
-    #[inline(always)]
-    fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
-        self.run.by_circles(simd, self.motion)
     }
 }
 

@@ -19,7 +19,6 @@ use crate::input::options::Method;
 use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
 use crate::numerics::scaling::scaled;
-use crate::simd::circles::Evaluate;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::{Lanes, WIDEST};

@@ -4,7 +4,7 @@
 //! of the scaled time.
 
 use crate::numerics::phase::Phase;
-use crate::simd::circles::{Circle, Circles, Evaluate};
+use crate::simd::circles::{Circle, Evaluate, Instants};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::{Lanes, WIDEST};
 use crate::torque_free::separatrix::Passage;
@@ -80,25 +80,23 @@ impl<S: InstructionSet> Constant<S> {
     }
 }
 
-/// Sines and cosines of ℓ′ and y′/2 that are already computed.
+/// Times whose sines and cosines of ℓ′ and y′/2 are already computed.
 #[derive(Clone, Copy)]
-struct Ready<S: InstructionSet>([Circle<S>; 2]);
-
-impl<S: InstructionSet> Circles<S> for Ready<S> {
-    #[inline(always)]
-    fn anomaly(self) -> Circle<S> {
-        self.0[0]
-    }
-
-    #[inline(always)]
-    fn half_longitude(self) -> Circle<S> {
-        self.0[1]
-    }
+struct Ready<S: InstructionSet> {
+    elapsed: (Lanes<S>, Lanes<S>),
+    circles: [Circle<S>; 2],
 }
 
-#[inline(always)]
-fn ready<S: InstructionSet>(phases: [&Phase; 2], elapsed: (Lanes<S>, Lanes<S>)) -> Ready<S> {
-    Ready([phases[0].sin_cos(elapsed), phases[1].sin_cos(elapsed)])
+impl<S: InstructionSet> Instants<S> for Ready<S> {
+    #[inline(always)]
+    fn elapsed(self) -> (Lanes<S>, Lanes<S>) {
+        self.elapsed
+    }
+
+    #[inline(always)]
+    fn circle(self, number: usize, _: &Phase) -> Circle<S> {
+        self.circles[number]
+    }
 }
 
 /// The amplitudes of a wobble and of a passage.
@@ -235,9 +233,9 @@ impl PartialsSource for Wobbling<'_> {
 
     #[inline(always)]
     fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> PartialsPlace<S> {
-        let circles = ready(self.tables.phases(), elapsed);
-        let sample = self.tables.evaluate::<S, true, true>(simd, circles);
-        let (sine, cosine) = circles.anomaly();
+        let circles = self.tables.phases().map(|phase| phase.sin_cos(elapsed));
+        let sample = self.tables.evaluate::<S, true, true>(simd, Ready { elapsed, circles });
+        let (sine, cosine) = circles[0];
         let one = sine.all(1.0);
         let twice = sine + sine;
         let (sine, cosine) = (twice * cosine, twice.negate_mul_add(sine, one));
@@ -320,7 +318,7 @@ impl PartialsSource for Steadily<'_> {
     /// The numbers are S, C and the time, scaled.
     #[inline(always)]
     fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> PartialsPlace<S> {
-        let (attitude, rates) = self.steady.evaluate::<S, true, true>(simd, ready(self.steady.phases(), elapsed));
+        let (attitude, rates) = self.steady.evaluate::<S, true, true>(simd, elapsed);
         let time = elapsed.0 * elapsed.0.all(setting.unit);
         let [first, second] = match &self.varied.growth {
             Growth::Oscillation(half, rate) => {

@@ -1,4 +1,4 @@
-//! The traits of a kernel: one gives sines and cosines of the phases, the other computes attitude and rates from them.
+//! The traits of a kernel: one gives sines and cosines of phases at some times, the other computes attitude and rates from them.
 
 use super::instruction_set::InstructionSet;
 use super::lanes::Lanes;
@@ -7,33 +7,37 @@ use crate::numerics::phase::Phase;
 /// Sine and cosine.
 pub(crate) type Circle<S> = (Lanes<S>, Lanes<S>);
 
-/// Sines and cosines of ℓ′ and y′/2 at some times.
-pub(crate) trait Circles<S: InstructionSet>: Copy {
-    /// Sine and cosine of ℓ′.
-    fn anomaly(self) -> Circle<S>;
-    /// Sine and cosine of y′/2.
-    fn half_longitude(self) -> Circle<S>;
+/// Some times after the epoch.
+pub(crate) trait Instants<S: InstructionSet>: Copy {
+    /// The times, in double-double.
+    fn elapsed(self) -> (Lanes<S>, Lanes<S>);
+
+    /// Sine and cosine of a phase of the motion, ℓ′ as number 0 or y′/2 as number 1.
+    fn circle(self, number: usize, phase: &Phase) -> Circle<S>;
 }
 
-/// Gives attitude and rates at some times, each only if requested.
-pub(crate) trait Source<S: InstructionSet> {
-    /// Attitude and rates at `times`, which begin at the index `place`.
-    fn at<const ATTITUDE: bool, const RATES: bool>(
-        &self,
-        place: usize,
-        times: Lanes<S>,
-    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]);
+/// Times in double-double, whose sines and cosines are computed.
+impl<S: InstructionSet> Instants<S> for (Lanes<S>, Lanes<S>) {
+    #[inline(always)]
+    fn elapsed(self) -> (Lanes<S>, Lanes<S>) {
+        self
+    }
+
+    #[inline(always)]
+    fn circle(self, _: usize, phase: &Phase) -> Circle<S> {
+        phase.sin_cos(self)
+    }
 }
 
-/// Computes attitude and rates from sines and cosines of the phases.
-pub(crate) trait Evaluate {
-    /// The phases ℓ′ and y′/2.
-    fn phases(&self) -> [&Phase; 2];
+/// A motion that is evaluated at several times at once.
+pub(crate) trait Evaluate: Sync {
+    /// Whether it depends on time by the sines and cosines of ℓ′ and y′/2 alone, for which a uniform grid has a table.
+    const BY_CIRCLES: bool;
 
     /// Attitude and rates, each only if requested.
     fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
         &self,
         simd: S,
-        circles: impl Circles<S>,
+        at: impl Instants<S>,
     ) -> ([Lanes<S>; 4], [Lanes<S>; 3]);
 }

@@ -8,7 +8,7 @@
 
 use pulp::Arch;
 
-use super::circles::{Circle, Circles};
+use super::circles::{Circle, Instants};
 use super::instruction_set::{self, InstructionSet, Task};
 use super::lanes::Lanes;
 use super::phase::elapsed;
@@ -34,6 +34,7 @@ pub(crate) struct Grid {
     offsets: [f64; BLOCK],
     /// Largest |δ|.
     tolerance: f64,
+    phases: [Phase; 2],
     /// 2πf of the two phases [rad per unit of time].
     rates: [f64; 2],
     /// Sines and cosines of the two phases after the offsets.
@@ -54,6 +55,7 @@ impl Grid {
             step,
             offsets: std::array::from_fn(|j| j as f64 * step),
             tolerance: LARGEST_DEVIATION / fastest,
+            phases: phases.map(|phase| *phase),
             rates,
             table: [[[0.0; BLOCK]; 2]; 2],
         };
@@ -86,13 +88,7 @@ impl Grid {
 
     /// The first factors of the blocks in a group.
     #[inline(always)]
-    pub(super) fn seeds<S: InstructionSet>(
-        &self,
-        simd: S,
-        phases: [&Phase; 2],
-        times: &[f64],
-        epoch: f64,
-    ) -> [Seed; GROUP / BLOCK] {
+    pub(super) fn seeds<S: InstructionSet>(&self, simd: S, times: &[f64], epoch: f64) -> [Seed; GROUP / BLOCK] {
         let mut bases = [0.0; GROUP / BLOCK];
         for (base, block) in bases.iter_mut().zip(times.chunks(BLOCK)) {
             *base = block[0];
@@ -100,7 +96,7 @@ impl Grid {
         let mut seeds = [[[0.0; 2]; 2]; GROUP / BLOCK];
         for place in (0..bases.len()).step_by(Lanes::<S>::WIDTH) {
             let elapsed = elapsed(Lanes::load(simd, &bases[place..]), Lanes::splat(simd, epoch));
-            for (index, phase) in phases.into_iter().enumerate() {
+            for (index, phase) in self.phases.iter().enumerate() {
                 let (sine, cosine) = phase.sin_cos(elapsed);
                 for (lane, (sine, cosine)) in sine.values().iter().zip(cosine.values()).enumerate() {
                     seeds[place + lane][index] = [*sine, *cosine];
@@ -160,37 +156,31 @@ pub(super) struct TabledCircles<'a, S: InstructionSet> {
     block: Tabled<'a, S>,
     place: usize,
     deviation: Lanes<S>,
+    elapsed: (Lanes<S>, Lanes<S>),
 }
 
 impl<'a, S: InstructionSet> Tabled<'a, S> {
     #[inline(always)]
-    pub(super) fn at(&self, place: usize, times: Lanes<S>) -> TabledCircles<'a, S> {
+    pub(super) fn at(&self, place: usize, times: Lanes<S>, elapsed: (Lanes<S>, Lanes<S>)) -> TabledCircles<'a, S> {
         let offset = times.like(&self.grid.offsets[place..]);
-        TabledCircles { block: *self, place, deviation: (times - self.base) - offset }
+        TabledCircles { block: *self, place, deviation: (times - self.base) - offset, elapsed }
     }
 }
 
-impl<S: InstructionSet> TabledCircles<'_, S> {
+impl<S: InstructionSet> Instants<S> for TabledCircles<'_, S> {
     #[inline(always)]
-    fn circle(self, phase: usize) -> Circle<S> {
-        let [sines, cosines] = &self.block.grid.table[phase];
+    fn elapsed(self) -> (Lanes<S>, Lanes<S>) {
+        self.elapsed
+    }
+
+    #[inline(always)]
+    fn circle(self, number: usize, _: &Phase) -> Circle<S> {
+        let [sines, cosines] = &self.block.grid.table[number];
         let (sine, cosine) = (self.deviation.like(&sines[self.place..]), self.deviation.like(&cosines[self.place..]));
-        let [first_sine, first_cosine] = self.block.seeds[phase];
-        let turn = self.deviation * self.deviation.all(self.block.grid.rates[phase]);
+        let [first_sine, first_cosine] = self.block.seeds[number];
+        let turn = self.deviation * self.deviation.all(self.block.grid.rates[number]);
         let product_sine = first_sine.mul_add(cosine, first_cosine * sine);
         let product_cosine = first_sine.negate_mul_add(sine, first_cosine * cosine);
         (product_cosine.mul_add(turn, product_sine), product_sine.negate_mul_add(turn, product_cosine))
-    }
-}
-
-impl<S: InstructionSet> Circles<S> for TabledCircles<'_, S> {
-    #[inline(always)]
-    fn anomaly(self) -> Circle<S> {
-        self.circle(0)
-    }
-
-    #[inline(always)]
-    fn half_longitude(self) -> Circle<S> {
-        self.circle(1)
     }
 }

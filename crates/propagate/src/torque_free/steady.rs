@@ -13,7 +13,7 @@ use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::{half, user_rate};
-use crate::simd::circles::{Circles, Evaluate};
+use crate::simd::circles::{Evaluate, Instants};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 
@@ -92,6 +92,11 @@ pub(crate) struct Steady {
 }
 
 impl Steady {
+    /// Half the angle, in the place of both phases of a wobble.
+    pub(crate) fn phases(&self) -> [&Phase; 2] {
+        [&self.half_angle; 2]
+    }
+
     /// The evaluator from the unit axis, the phase of half the angle, and attitude and rates at the epoch.
     pub(crate) fn new(
         axis: Vector3<f64>,
@@ -106,19 +111,17 @@ impl Steady {
 }
 
 impl Evaluate for Steady {
-    fn phases(&self) -> [&Phase; 2] {
-        [&self.half_angle; 2]
-    }
+    const BY_CIRCLES: bool = true;
 
     #[inline(always)]
     fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
         &self,
         simd: S,
-        circles: impl Circles<S>,
+        at: impl Instants<S>,
     ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
         let mut attitude = [Lanes::splat(simd, 0.0); 4];
         if ATTITUDE {
-            let (sine, cosine) = circles.half_longitude();
+            let (sine, cosine) = at.circle(1, &self.half_angle);
             for (row, place) in attitude.iter_mut().enumerate() {
                 let [start, quarter] = Lanes::splats(simd, [self.attitudes[0][row], self.attitudes[1][row]]);
                 *place = quarter.mul_add(sine, start * cosine);

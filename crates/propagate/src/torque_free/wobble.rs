@@ -9,7 +9,7 @@ use super::harmonics::CayleyKleinSeries;
 use super::polhode::UserFrame;
 use super::sums::Sums;
 use crate::numerics::phase::Phase;
-use crate::simd::circles::{Circles, Evaluate};
+use crate::simd::circles::{Evaluate, Instants};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 
@@ -60,6 +60,11 @@ impl WobbleEvaluator {
         }
     }
 
+    /// The phases ℓ′ and y′/2.
+    pub(crate) fn phases(&self) -> [&Phase; 2] {
+        [&self.anomaly, &self.half_longitude]
+    }
+
     /// The same motion by a series with other harmonics, normalized at the ℓ′ of the epoch to the same attitude.
     pub(crate) fn with_series(&self, series: &CayleyKleinSeries, anomaly: f64) -> Self {
         let Self { anomaly: phase, half_longitude, map, rates, .. } = *self;
@@ -69,17 +74,15 @@ impl WobbleEvaluator {
 }
 
 impl Evaluate for WobbleEvaluator {
-    fn phases(&self) -> [&Phase; 2] {
-        [&self.anomaly, &self.half_longitude]
-    }
+    const BY_CIRCLES: bool = true;
 
     #[inline(always)]
     fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
         &self,
         simd: S,
-        circles: impl Circles<S>,
+        at: impl Instants<S>,
     ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
-        let (sine, cosine) = circles.anomaly();
+        let (sine, cosine) = at.circle(0, &self.anomaly);
         let [ar, ai, br, bi] = self.sums.pair(simd, sine, cosine);
         let upper = ar.mul_add(ar, ai * ai);
         let lower = br.mul_add(br, bi * bi);
@@ -96,7 +99,7 @@ impl Evaluate for WobbleEvaluator {
         }
         let mut attitude = [zero; 4];
         if ATTITUDE {
-            let (sine, cosine) = circles.half_longitude();
+            let (sine, cosine) = at.circle(1, &self.half_longitude);
             let root = scale.root();
             let (sine, cosine) = (sine * root, cosine * root);
             let relative = [
