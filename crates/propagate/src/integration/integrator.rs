@@ -22,6 +22,8 @@ pub(super) const AT_ONCE: usize = 64;
 /// is 1.
 const HOPELESS: f64 = 4.0;
 const TYPICAL: usize = MOST_STEPS / 64;
+/// A body that needs more steps for the rest of the span at its present rotation has been spun up.
+const MOST_BY_ROTATION: f64 = HOPELESS * MOST_STEPS as f64;
 /// No step is longer than this rotation \[rad\]: at tolerances up to 1 rad the mean over 400 motions was 2.4 at most.
 const LONGEST_STEP: f64 = 4.0;
 /// Steps during which a body must rotate too fast for the rest of the span before it is refused: within a passage of a pericentre it may do so for some hundreds.
@@ -286,6 +288,11 @@ impl StepsSoFar {
         extrapolated(equations, steps, self.runner.time, target).max(steps as f64 + by_rotation(&self.runner, target))
     }
 
+    /// Whether the body rotates too fast for the rest of the span: it is refused if that lasts.
+    pub(super) fn is_spun_up(&self, target: (f64, f64)) -> bool {
+        by_rotation(&self.runner, target) > MOST_BY_ROTATION
+    }
+
     /// What a function reads of the steps so far, with the state after the last one.
     pub(super) fn with_last<T>(&mut self, read: impl FnOnce(&[Step]) -> T) -> T {
         self.steps.push(self.runner.step());
@@ -395,7 +402,7 @@ fn spun_up(
     (since, steps): (Option<(f64, usize)>, usize),
 ) -> Result<Option<(f64, usize)>, Error> {
     let needed = by_rotation(runner, target);
-    if needed <= HOPELESS * MOST_STEPS as f64 {
+    if needed <= MOST_BY_ROTATION {
         return Ok(None);
     }
     let (time, first) = since.unwrap_or((runner.time.0, steps));

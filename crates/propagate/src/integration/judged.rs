@@ -35,7 +35,8 @@ impl Problem {
             if progress.runner.time == self.ends[side] {
                 return Ok((progress.ended(), None));
             }
-            if progress.expected(&self.equations, self.ends[side]) < WORTHWHILE * pause as f64 {
+            let short = progress.expected(&self.equations, self.ends[side]) < WORTHWHILE * pause as f64;
+            if short || progress.is_spun_up(self.ends[side]) {
                 pause = pause.saturating_mul(2);
                 continue;
             }
