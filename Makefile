@@ -9,7 +9,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves verdicts pulls libration-cost libration-reach evolution-times nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-driven rivals-partials rivals-ephemeris rivals-messages gravity docs docs-test package release release-check wheel clean kernels playground playground-test
+.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench figures report sweep scenes light-curves verdicts pulls libration-cost libration-reach evolution-times members nature bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm explore minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-batch rivals-driven rivals-partials rivals-ephemeris rivals-messages gravity docs docs-test package release release-check wheel clean kernels playground playground-test
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -115,6 +115,9 @@ pulls: $(VENV)/installed  ## pulls of 200 fits of light curves in magnitudes: do
 evolution-times: $(VENV)/installed  ## averages over years beside integrations: docs/data/evolution-times.csv; half a minute
 	$(BIN)/python benches/evolution_times.py
 
+members: $(VENV)/installed $(VENV)/tested  ## seconds and memory of large ensembles, by kind: docs/data/members.csv; some minutes
+	$(BIN)/python benches/members.py
+
 libration-cost: $(VENV)/installed  ## librations by order and eccentricity: docs/data/libration-cost.csv and its picture; some minutes
 	$(BIN)/python benches/libration_cost.py
 
@@ -210,7 +213,7 @@ bounds: $(VENV)/installed  ## errors of 3000 random scenes, 1000 tensors and 100
 	$(BIN)/python tests/stress/passages.py
 	$(BIN)/python tests/stress/torque_partials.py
 
-rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-driven rivals-partials rivals-ephemeris rivals-messages  ## the tables of ratios, in out/ too
+rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-batch rivals-driven rivals-partials rivals-ephemeris rivals-messages  ## the tables of ratios, in out/ too
 
 rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine
 	$(RIVALS)/bin/python benches/rivals/normal_form.py --data docs/data/rivals-normal-form.csv
@@ -229,6 +232,9 @@ rivals-gradient: $(RIVALS)/propagation $(RIVALS)/installed  ## the gravity gradi
 
 rivals-integration: $(RIVALS)/propagation $(RIVALS)/installed  ## the integrated method against heyoka, in nine regimes
 	$(RIVALS)/bin/python benches/rivals/integration.py --output docs/data/rivals-integration.csv
+
+rivals-batch: $(RIVALS)/propagation $(RIVALS)/installed  ## ensembles of integrated members against heyoka's batch mode, in seven regimes
+	$(RIVALS)/bin/python benches/rivals/integration.py --batch --output docs/data/rivals-batch.csv
 
 rivals-libration: $(RIVALS)/propagation $(RIVALS)/installed  ## librations against the integration and heyoka: docs/data/libration-rivals.csv; a quarter of an hour
 	$(RIVALS)/bin/python benches/rivals/libration.py --output docs/data/libration-rivals.csv

@@ -35,11 +35,13 @@ TARGETS = {
     "libration-reach": ["libration-reach.csv"],
     "verdicts": ["verdicts.csv"],
     "evolution-times": ["evolution-times.csv"],
+    "members": ["members.csv"],
+    "rivals-batch": ["rivals-batch.csv"],
     "pulls": ["pulls.csv"],
     "nature": ["nature-earth.csv", "nature-moon.csv", "nature-moon-terms.csv", "nature-moon-rivals.csv"],
 }
 # Counts of scenes, which the clock changes only where an order takes seconds, counts of verdicts, pulls, angles, ratios to engines that are no engine of the other files, and times that are compared with none of the others: they may be of another commit than the others.
-COUNTS = {"evolution-times", "libration-reach", "nature", "pulls", "rivals-ephemeris", "verdicts"}
+COUNTS = {"evolution-times", "libration-reach", "members", "nature", "pulls", "rivals-batch", "rivals-ephemeris", "verdicts"}
 SOURCES = ("crates/*/src/**/*.rs", "crates/py/python/**/*.py")
 PAGES = ("README.md", "benches/README.md", "crates/py/README.md", "docs/")
 """What the targets write."""

@@ -1,7 +1,7 @@
 """Compare the integrated method with heyoka's integration of the same equations, in nine regimes.
 
     python benches/rivals/integration.py [--scenes 30] [--seed 1] [--tolerance 1e-10] [--no-cost] [--output docs/data/rivals-integration.csv]
-    python benches/rivals/integration.py --batch
+    python benches/rivals/integration.py --batch [--output docs/data/rivals-batch.csv]
 
 Random scenes of each regime: slow, synchronous, 3:2, fast, two bodies, precessing, eccentric (up to 0.95), near the separatrix, long axis. The reference is heyoka in extended precision (80 bits, tolerance
 1e-19) with the same doubles. The table has the largest error, the number of errors above the error bound, the number of errors above the tolerance if `Plan.meets_tolerance` is True, the quantiles of bound / error, and the least
@@ -280,10 +280,13 @@ def main():
     warnings.simplefilter("ignore", andoyer.ToleranceWarning)
     if asked.batch:
         print(f"{'regime':<13}{'heyoka batch':>13}{'alone':>7}{'error':>9}{'heyoka at':>11}{'us a member':>13}")
+        rows = []
         for regime in REGIMES:
             if regime not in ("two bodies", "precessing"):
                 ratio, alone, error, allowed, seconds = batch(regime, asked.tolerance)
                 print(f"{regime:<13}{ratio:>13.2f}{alone:>7.2f}{error:>9.1e}{allowed:>11.0e}{1e6 * seconds:>13.0f}", flush=True)
+                rows.append([regime, f"{ratio:.2f}", f"{alone:.2f}", f"{error:.1e}", f"{allowed:.0e}", f"{1e6 * seconds:.0f}"])
+        write(asked.output, ["regime", "ratio", "alone", "error", "heyoka_tolerance", "us_a_member"], rows)
         return
     reference, lines, rows, bad = Reference(), [], [], 0
     lines.append(f"tolerance {asked.tolerance:g}, {asked.scenes} scenes a regime, heyoka {hy.__version__}, andoyer {andoyer.__version__}")

@@ -289,6 +289,20 @@ def light_curves() -> list[str]:
     return markdown(rows[0], (row.values() for row in rows))
 
 
+def members() -> list[str]:
+    """Seconds and memory of large ensembles, by kind."""
+    columns = ["kind", "members", "epochs", "threads", "seconds", "ms_a_member", "memory_mb"]
+    head = ["kind", "members", "epochs", "threads or workers", "s", "ms a member", "largest memory [MB]"]
+    return markdown(head, ([row[column] for column in columns] for row in read("members.csv")))
+
+
+def rivals_batch() -> list[str]:
+    """Ensembles of integrated members beside heyoka's batch mode, by regime."""
+    columns = ["regime", "ratio", "alone", "error", "heyoka_tolerance", "us_a_member"]
+    head = ["regime", "heyoka's batch mode / ensemble", "scenes one by one / ensemble", "largest error [rad]", "heyoka's tolerance", "µs a member"]
+    return markdown(head, ([row[column] for column in columns] for row in read("rivals-batch.csv")))
+
+
 def evolution_times() -> list[str]:
     """Averages over years, and integrations of a shorter span."""
     columns = ("scene", "years", "all_rotations", "averages_ms", "evaluation_us", "plan_ms", "rotations", "integration_ms", "ratio")
@@ -425,6 +439,8 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "averaged-bodies": averaged_bodies,
     "ensemble": ensemble,
     "evolution-times": evolution_times,
+    "members": members,
+    "rivals-batch": rivals_batch,
     "front": front,
     "gravity-bounds": gravity_bounds,
     "gravity-cases": gravity_cases,
