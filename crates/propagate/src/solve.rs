@@ -52,7 +52,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::solve`], and [`Error::Stopped`].
     pub fn solve_until(&self, stop: &AtomicBool) -> Result<Motion, Error> {
-        self.served(Served::Scene, stop)
+        self.served(Served::WholeSpan, stop)
     }
 
     /// As [`Scene::solve_until`], for a use of the motion.

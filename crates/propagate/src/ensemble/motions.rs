@@ -77,8 +77,8 @@ impl Ensemble {
     /// The part of its span over which a member is solved. With [`OnError::Nan`] it ends where the error bound reaches half a turn, and only the rows of later times are NaN.
     fn served(&self) -> Served {
         match self.on_error {
-            OnError::Raise => Served::Member,
-            OnError::Nan => Served::MemberWhileKnown,
+            OnError::Raise => Served::WholeSpan,
+            OnError::Nan => Served::WhileKnown,
         }
     }
 

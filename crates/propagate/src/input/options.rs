@@ -99,13 +99,11 @@ pub enum Averaging {
     Spin,
 }
 
-/// What is asked of a motion that is integrated. Its steps and its error bound have the same bits for all three.
+/// The part of the span that a motion is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Served {
-    /// The whole span or an error, and the coefficients of each step, for as many evaluations as its user wants.
-    Scene,
-    /// The whole span or an error, and the start of each step: 72 bytes instead of 1.3 kB.
-    Member,
-    /// As much of the span as has an error bound below half a turn, and the start of each step.
-    MemberWhileKnown,
+    /// All of it, or an error.
+    WholeSpan,
+    /// As much of it as has an error bound below half a turn.
+    WhileKnown,
 }

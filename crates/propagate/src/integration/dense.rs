@@ -1,9 +1,10 @@
 //! Evaluation at any time by the series of the step that contains it.
 //!
-//! If the coefficients of an integration are not kept, a step is expanded again when a time falls into it. The expansion takes the time of the step and gives
+//! If the coefficients of an integration are not kept, because there are too many or many motions are, a step is expanded again when a time falls into it. The expansion takes the time of the step and gives
 //! the same bits. Times in order share an expansion.
 
 use std::any::Any;
+use std::sync::Arc;
 
 use pulp::Arch;
 
@@ -95,6 +96,11 @@ impl Forced for Integrated {
             steps.capacity() * size_of::<Step>() + coefficients.capacity() * size_of::<Coefficients>()
         };
         size_of::<Self>() + self.sides.iter().map(side).sum::<usize>()
+    }
+
+    fn compact(&self) -> Option<Arc<dyn Forced>> {
+        let has_coefficients = self.sides.iter().any(|side| !side.coefficients.is_empty());
+        has_coefficients.then(|| Arc::new(self.without_coefficients()) as _)
     }
 
     fn fill(&self, arch: Arch, run: Run<'_>) -> Result<(), Halt> {

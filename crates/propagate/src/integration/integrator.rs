@@ -60,6 +60,11 @@ pub(super) struct Side {
 }
 
 impl Side {
+    /// The starts of the steps alone.
+    pub(super) fn without_coefficients(&self) -> Self {
+        Self { steps: self.steps.clone(), coefficients: Vec::new() }
+    }
+
     /// Without the steps after a time from the epoch, with the coefficients of an order.
     pub(super) fn end_at(&mut self, time: f64, order: usize) {
         let steps = self.steps.partition_point(|step| step.time.0.abs() <= time.abs()).max(1);
@@ -277,9 +282,9 @@ pub(super) struct StepsSoFar {
 }
 
 impl StepsSoFar {
-    pub(super) fn new(runner: Runner<4>, equations: &Equations<4>, kept: bool) -> Self {
+    pub(super) fn new(runner: Runner<4>, equations: &Equations<4>) -> Self {
         let growth = equations.torques.as_ref().map(|torques| StepGrowth::new(torques.brakes, MOST_STEPS));
-        Self { runner, steps: Vec::new(), coefficients: Vec::new(), kept, fast: None, growth }
+        Self { runner, steps: Vec::new(), coefficients: Vec::new(), kept: true, fast: None, growth }
     }
 
     /// The number of steps of the whole integration, from below.

@@ -5,7 +5,7 @@
 //! displaced states measure the error ([`bound`]), also before the end, so that a motion of which nothing is known any more ends ([`judged`]). docs/speed.md has its time beside that of heyoka, which
 //! has no bound (`make rivals-integration`).
 //!
-//! Members of an ensemble are integrated one after another, each to the bits of its scene. They keep the starts of their steps alone.
+//! A member of an ensemble is integrated as its scene. The ensemble keeps the starts of its steps alone.
 
 mod bound;
 pub(crate) mod columns;

@@ -36,8 +36,6 @@ pub(super) struct Problem {
     /// Number of torques beside the gravity gradient.
     pub(super) torques: usize,
     pub(super) of_interpolation: f64,
-    /// Whether the coefficients of the steps are kept.
-    pub(super) keeps_coefficients: bool,
 }
 
 impl Problem {
@@ -95,7 +93,6 @@ impl Problem {
             reach: [start - epoch, stop - epoch],
             torques: scene.acting_torques().len(),
             of_interpolation,
-            keeps_coefficients: true,
         })
     }
 

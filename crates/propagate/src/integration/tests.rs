@@ -29,13 +29,14 @@ fn a_step_takes_the_bytes_that_the_error_says() {
 }
 
 #[test]
-fn a_member_has_the_bits_of_its_scene_and_a_tenth_of_its_memory() {
+fn a_compact_motion_has_the_same_bits_in_a_tenth_of_the_memory() {
     let orbit = Orbit::new(0.3, 0.4).expect("an orbit").secular_rates(0.01, -0.02).expect("rates");
     let scene = scene([0.5, 0.8, 1.0], [0.3, 0.5, 1.0]).orbit(orbit).span(-40.0, 60.0);
-    let motion = |served| Integrated::new(&scene, "", (served, &AtomicBool::new(false))).expect("a motion");
-    let (alone, member) = (motion(Served::Scene), motion(Served::Member));
-    assert!(alone.error == member.error && 10 * member.memory() < alone.memory());
-    let (mut one, mut other) = (Cursor::new(&alone), Cursor::new(&member));
+    let kept = Integrated::new(&scene, "", (Served::WholeSpan, &AtomicBool::new(false))).expect("a motion");
+    let compact = kept.compact().expect("a compact motion");
+    assert!(10 * compact.memory() < kept.memory() && compact.compact().is_none());
+    let compact = compact.as_any().downcast_ref::<Integrated>().expect("an integrated motion");
+    let (mut one, mut other) = (Cursor::new(&kept), Cursor::new(compact));
     for k in 0..=400 {
         let time = -43.0 + 0.25 * f64::from(k);
         assert_eq!(one.at((time, 0.0)), other.at((time, 0.0)));
@@ -51,7 +52,7 @@ fn an_integration_is_repeated_with_shorter_steps_only_if_truncation_errors_keep_
         let orbit = Orbit::new(1.0, 0.05).and_then(|orbit| orbit.plane(0.5, 1.0, 2.0)).expect("an orbit");
         let scene = scene(moments, rates).orbit(orbit).span(3.0, stop).tolerance(1e-10);
         let first = Precision::of(Problem::new(&scene, "").expect("a problem").first_error());
-        let motion = Integrated::new(&scene, "", (Served::Scene, &AtomicBool::new(false))).expect("a motion");
+        let motion = Integrated::new(&scene, "", (Served::WholeSpan, &AtomicBool::new(false))).expect("a motion");
         assert_eq!(motion.order() > first.order, repeated, "{moments:?}: {:e}", motion.error);
         assert!(repeated || motion.error > 1e-10, "{:e}", motion.error);
     }
@@ -60,7 +61,7 @@ fn an_integration_is_repeated_with_shorter_steps_only_if_truncation_errors_keep_
 #[test]
 fn the_integrals_of_the_free_motion_drift_by_twice_the_relative_error_of_the_rates() {
     let free = scene([1.0, 1.5, 2.0], [0.1, 0.2, 1.0]).span(0.0, 500.0).method(Method::Integrated);
-    let motion = Integrated::new(&free, "", (Served::Scene, &AtomicBool::new(false))).expect("a motion");
+    let motion = Integrated::new(&free, "", (Served::WholeSpan, &AtomicBool::new(false))).expect("a motion");
     let [first, last] = [&motion.sides[1].steps[0], &motion.sides[1].steps[motion.sides[1].steps.len() - 1]];
     let equations = Equations::new(&free, 0, 1.0);
     // Along the motion the energy and the angular momentum stay; with rates 1e-9 larger the largest integral, f2 ω1² − f1 ω2² or another, changes by 2e-9 of
@@ -96,7 +97,7 @@ fn the_guess_of_the_bound_is_near_the_bound_and_not_above_it_in_the_median() {
     let mut ratios: Vec<f64> = random_scenes(30)
         .map(|scene| {
             let (guess, steps) = prospect(&scene).expect("a guess");
-            let motion = Integrated::new(&scene.tolerance(1e-15), "", (Served::Scene, &AtomicBool::new(false)))
+            let motion = Integrated::new(&scene.tolerance(1e-15), "", (Served::WholeSpan, &AtomicBool::new(false)))
                 .expect("a motion");
             assert!(motion.plan(0.0).steps as f64 <= 1.3 * steps, "{} and {steps}", motion.plan(0.0).steps);
             guess / motion.error
@@ -118,7 +119,7 @@ fn the_bound_is_above_the_error_where_the_growing_part_of_two_displacements_canc
     let orbit = orbit.and_then(|orbit| orbit.plane(1.4677893172430838, 3.1874226752304695, 4.598141704624689));
     let scene = Scene::new(body, State::new(0.0, attitude, rates).expect("a state")).orbit(orbit.expect("an orbit"));
     let scene = scene.span(0.0, 10.170380595942394).tolerance(1e-10);
-    let motion = Integrated::new(&scene, "", (Served::Scene, &AtomicBool::new(false))).expect("a motion");
+    let motion = Integrated::new(&scene, "", (Served::WholeSpan, &AtomicBool::new(false))).expect("a motion");
     assert!(motion.error > 2.6e-13 && motion.error < 1e-10, "{:e}", motion.error);
 }
 
@@ -139,7 +140,7 @@ fn the_bound_of_a_locked_rotation_has_the_rounding_errors_of_series_that_cancel(
         let scene = scene.orbit(Orbit::new(1.0, 0.0).expect("an orbit")).span(0.0, 6283.0);
         for tolerance in [1e-8, 1e-16] {
             let motion =
-                Integrated::new(&scene.clone().tolerance(tolerance), "", (Served::Scene, &AtomicBool::new(false)));
+                Integrated::new(&scene.clone().tolerance(tolerance), "", (Served::WholeSpan, &AtomicBool::new(false)));
             let motion = motion.expect("a motion");
             let found = Cursor::new(&motion).at((6283.0, 0.0)).0;
             let error = 2.0 * norm(&[found[0], found[1], found[2] - last_z, found[3] - last_w]);
@@ -202,10 +203,10 @@ fn a_chaotic_motion_ends_soon_after_the_time_from_which_on_nothing_is_known() {
     assert!(whole.steps.len() > 30 * side.steps.len(), "{} and {}", whole.steps.len(), side.steps.len());
     assert!(side.steps.iter().zip(&whole.steps).all(|(one, other)| same(one, other)));
     // What is refused says this time.
-    let refused = Integrated::new(&chaotic, "", (Served::Scene, &going)).expect_err("chaos");
+    let refused = Integrated::new(&chaotic, "", (Served::WholeSpan, &going)).expect_err("chaos");
     assert!(matches!(refused, Error::Unpredictable { known: [first, last], .. } if first == 3.0 && last > 50.0));
     // So does a span of 1.8 times the allowed steps: a shorter one would be refused too.
-    let refused = Integrated::new(&chaotic.span(3.0, 2.3e6), "", (Served::Scene, &going)).expect_err("chaos");
+    let refused = Integrated::new(&chaotic.span(3.0, 2.3e6), "", (Served::WholeSpan, &going)).expect_err("chaos");
     assert!(matches!(refused, Error::Unpredictable { known: [_, last], .. } if last > 50.0), "{refused}");
 }
 

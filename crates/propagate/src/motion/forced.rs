@@ -4,6 +4,7 @@
 use std::any::Any;
 use std::fmt::Debug;
 use std::panic::{RefUnwindSafe, UnwindSafe};
+use std::sync::Arc;
 
 use pulp::Arch;
 
@@ -23,6 +24,11 @@ pub(crate) trait Forced: Debug + Send + Sync + UnwindSafe + RefUnwindSafe {
 
     /// Its memory, in bytes.
     fn memory(&self) -> usize;
+
+    /// The same motion in less memory, which takes longer to evaluate, or `None`.
+    fn compact(&self) -> Option<Arc<dyn Forced>> {
+        None
+    }
 
     /// Evaluates the times of a run.
     fn fill(&self, arch: Arch, run: Run<'_>) -> Result<(), Halt>;

@@ -106,6 +106,12 @@ impl Motion {
         size_of::<Self>() + self.trajectory.memory()
     }
 
+    /// The same motion in less memory, where there is one.
+    pub(crate) fn compact(&self) -> Option<Self> {
+        let Trajectory::Forced(motion) = &self.trajectory else { return None };
+        motion.compact().map(|motion| Self { trajectory: Trajectory::Forced(motion), ..self.clone() })
+    }
+
     /// The mean frequencies [rad per unit of time]; 0 if the motion has none.
     pub fn frequencies(&self) -> Frequencies {
         self.frequencies

@@ -104,7 +104,7 @@ fn checked(
     if !is_measured && departure(&Integrated::unmeasured(&compared, stop)?) <= bound {
         return Ok(bound);
     }
-    let integration = Integrated::new(&compared, "", (Served::Scene, stop))?;
+    let integration = Integrated::new(&compared, "", (Served::WholeSpan, stop))?;
     let seen = departure(&integration);
     let measured = (SAFETY * seen * growth + integration.error).min(PI);
     Ok(match seen - integration.error > bound {
