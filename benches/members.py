@@ -16,6 +16,7 @@ import sys
 import time
 import warnings
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
@@ -55,35 +56,25 @@ def chunk(first: int) -> Array:
     return any_shape(first, CHUNK, 1).attitude(np.linspace(0, 300, 10))
 
 
-def by_dask(members: int, workers: int) -> Callable[[], Array]:
+def by_dask(members: int, workers: int, stack: ExitStack) -> Callable[[], Array]:
     from distributed import Client, LocalCluster
 
-    cluster = LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
-    client = Client(cluster)
-    client.gather(client.map(chunk, [-k - 1 for k in range(2 * workers)], pure=False))  # imports, and the first pages
-
-    def run() -> Array:
-        found = np.concatenate(client.gather(client.map(chunk, range(0, members, CHUNK), pure=False)))
-        client.close()
-        cluster.close()
-        return found
-
-    return run
+    client = stack.enter_context(Client(stack.enter_context(LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None))))
+    client.gather(client.map(chunk, range(members, members + 4 * workers * CHUNK, CHUNK), pure=False))  # imports, and the first pages
+    return lambda: np.concatenate(client.gather(client.map(chunk, range(0, members, CHUNK), pure=False)))
 
 
-def second_order(members: int, threads: int) -> Callable[[], Array]:
+def second_order(members: int, threads: int, _: ExitStack) -> Callable[[], Array]:
     """Nearly spherical bodies under one orbit, by the theory of second order."""
     random = np.random.default_rng(7)
     moments = np.sort(1 - random.uniform(0, 0.05, (members, 3)), axis=1)
     rates = random.normal(size=(members, 3)) * [0.1, 0.1, 0] + [0, 0, 1]
     orbit = andoyer.Orbit(2e-3, 0.1, inclination=0.4)
-    ensemble = andoyer.Ensemble(
-        moments, [0, 0, 0, 1], rates, orbit=orbit, level="second-order", span=(0, 1e4), tolerance=1e-6, threads=threads, errors="nan"
-    )
+    ensemble = andoyer.Ensemble(moments, [0, 0, 0, 1], rates, orbit=orbit, level="second-order", span=(0, 1e4), tolerance=1e-6, threads=threads, errors="nan")
     return lambda: ensemble.attitude(np.linspace(0, 1e4, 100))
 
 
-def flyby(members: int, threads: int) -> Callable[[], Array]:
+def flyby(members: int, threads: int, _: ExitStack) -> Callable[[], Array]:
     """Clones of Apophis from ten days before its passage of 2029 to ten days after it, as in the gallery."""
     gm, q, e = 398600.4418 * 3600.0**2, 38011.48649, 4.253901873
     angles = {"inclination": np.radians(162.8562), "node": np.radians(152.0019), "argument_of_pericentre": np.radians(32.5676)}
@@ -106,12 +97,12 @@ def flyby(members: int, threads: int) -> Callable[[], Array]:
     return lambda: ensemble.attitude(np.linspace(-240.0, 240.0, 10))
 
 
-def integrated(members: int, threads: int) -> Callable[[], Array]:
+def integrated(members: int, threads: int, _: ExitStack) -> Callable[[], Array]:
     ensemble = any_shape(0, members, threads)
     return lambda: ensemble.attitude(np.linspace(0, 300, 10))
 
 
-KINDS: dict[str, tuple[Callable[[int, int], Callable[[], Array]], int, int]] = {
+KINDS: dict[str, tuple[Callable[[int, int, ExitStack], Callable[[], Array]], int, int]] = {
     "second order": (second_order, 10_000, 100),
     "flyby of Apophis": (flyby, 10_000, 10),
     "integrated, any shape": (integrated, 10_000, 10),
@@ -123,10 +114,11 @@ def measured(kind: str, threads: int) -> dict[str, str]:
     """One measurement, in this process."""
     warnings.simplefilter("ignore", andoyer.ToleranceWarning)
     make, members, epochs = KINDS[kind]
-    run = make(members, threads)
-    clock = time.perf_counter()
-    found = run()
-    seconds = time.perf_counter() - clock
+    with ExitStack() as stack:
+        run = make(members, threads, stack)
+        clock = time.perf_counter()
+        found = run()
+        seconds = time.perf_counter() - clock
     if found.shape[:2] != (members, epochs) or np.isnan(found).all(axis=(1, 2)).mean() > 0.02:
         raise SystemExit(f"members: {kind} has the shape {found.shape}, and {np.isnan(found).all(axis=(1, 2)).sum()} members without a motion")
     memory = max(resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)) / 1024
