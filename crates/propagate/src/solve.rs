@@ -1,4 +1,5 @@
-//! From a scene to its motion (theory §5 to §10): `choose` asks which method serves, `free`, `averaged`, `libration` and `integrated` make the motion.
+//! From a scene to its motion (theory §5 to §10, theory-locked): `choose` asks which method serves and integrates; `free`, `averaged`, `libration` and `integrated` make the motion, `several`
+//! those of free bodies together.
 
 use std::sync::atomic::AtomicBool;
 

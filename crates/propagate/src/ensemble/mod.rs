@@ -1,4 +1,4 @@
-//! Many bodies: free bodies are solved in groups of sixteen, others one by one, and evaluated member by member, in memory proportional to the result.
+//! Many bodies: free bodies about their principal axes are solved in groups of sixteen, others one by one, and evaluated member by member, in memory proportional to the result.
 //!
 //! The constants of the polhodes of a group and their frequencies are computed in lanes, one member a lane. No operation combines lanes and a group is computed
 //! by one thread, so that the bits depend neither on the number of threads nor on the other members. The motions under torques are kept, up to [`KEPT_MEMORY`]: of those that are integrated

@@ -1,6 +1,6 @@
 //! Evaluation at any time by the series of the step that contains it.
 //!
-//! If the coefficients of an integration are not kept, because there are too many or many motions are, a step is expanded again when a time falls into it. The expansion takes the time of the step and gives
+//! A long integration keeps no coefficients, nor does a motion that an ensemble keeps: a step is then expanded again when a time falls into it. The expansion takes the time of the step and gives
 //! the same bits. Times in order share an expansion.
 
 use std::any::Any;

@@ -73,7 +73,7 @@ impl Integrated {
         Ok(problem.motion(precision.order, [before?.0, after?.0], (f64::INFINITY, None)))
     }
 
-    /// The motion; for a member, where its error bound reaches half a turn within the span, the part before that.
+    /// The motion. If its error bound reaches half a turn, an error, or the part before that if this is asked for.
     fn known(
         problem: &Problem,
         scene: &Scene,

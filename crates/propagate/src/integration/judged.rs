@@ -2,7 +2,7 @@
 //!
 //! After a number of steps the error bound so far is measured as that of a whole span. If it is half a turn, that over the span is too: there the displacements have the errors of more steps,
 //! and grow for a longer time. The next judgement is due where the growth so far leads to half a turn. The last one is after 1/16 of the steps at most, so that all of them together take
-//! less than a fifth of the time of the error bound. A motion that is served has the bits that it has without judgements.
+//! less than a fifth of the time of the error bound. Judgements change no bit of a motion that reaches its end.
 
 use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;

@@ -5,7 +5,7 @@
 //! displaced states measure the error ([`bound`]), also before the end, so that a motion of which nothing is known any more ends ([`judged`]). docs/speed.md has its time beside that of heyoka, which
 //! has no bound (`make rivals-integration`).
 //!
-//! A member of an ensemble is integrated as its scene. The ensemble keeps the starts of its steps alone.
+//! A member of an ensemble is integrated as its scene; an ensemble keeps only the start of each step.
 
 mod bound;
 pub(crate) mod columns;

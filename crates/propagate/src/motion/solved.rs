@@ -1,6 +1,6 @@
 //! A solved motion. It is immutable, can be shared between threads, and can be evaluated at any time.
 //!
-//! An evaluation takes two sines and cosines (of ℓ′ and y′/2), the sums of theory §8, a normalization and a constant map: see [`super::trajectory`].
+//! An evaluation of a wobble takes two sines and cosines (of ℓ′ and y′/2), the sums of theory §8, a normalization and a constant map: see [`super::trajectory`].
 
 use nalgebra::{UnitQuaternion, Vector3};
 

@@ -1,6 +1,6 @@
-//! Arrays of attitudes and rates from a solved motion: several times at once, with the best instruction set available, on several threads.
+//! Arrays of attitudes and rates from a solved motion, with the best instruction set available, on several threads; of most motions several times at once.
 //!
-//! Kernels are written once over [`crate::simd::lanes`] and compiled for each instruction set ([`crate::simd::instruction_set`]). One time takes two phases in
+//! Kernels are written once over [`crate::simd::lanes`] and compiled for each instruction set ([`crate::simd::instruction_set`]). One time of a wobble takes two phases in
 //! double-double, two sines and cosines ([`crate::simd::sincos`]), the sums of theory §8 ([`crate::torque_free::sums`]) and a constant map
 //! ([`crate::torque_free::wobble`]). On a uniform grid one product with a table gives the sines ([`crate::simd::grid`]). Only the requested outputs are
 //! computed. All sets with a fused multiply-add give the same bits, with any number of threads.

@@ -7,7 +7,7 @@ use crate::input::scene::Scene;
 /// Time of one step and of its part of the error bound \[s\], and what each disturbing body adds: rough values from a busy machine, which no command measures yet.
 /// `verify` is timed nowhere, so that a plan is the same on every machine.
 const SECONDS: [f64; 2] = [4e-6, 3e-6];
-/// Steps in one radian of the fastest rate, at most: as `integration::integrated::prospect` counts them.
+/// Steps in one radian of the fastest rate, at most: as `integration::prospect` counts them.
 const STEPS_A_RADIAN: f64 = 2.0;
 
 /// The cost of a verification.

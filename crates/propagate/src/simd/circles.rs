@@ -1,4 +1,4 @@
-//! The traits of a kernel: one gives sines and cosines of phases at some times, the other computes attitude and rates from them.
+//! The traits of a kernel: one has some times with sines and cosines of phases, the other computes attitude and rates at them.
 
 use super::instruction_set::InstructionSet;
 use super::lanes::Lanes;

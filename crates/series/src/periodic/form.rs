@@ -1,7 +1,7 @@
 //! The normal form about a periodic motion, and its evaluation.
 //!
 //! H is expanded about x̄(M) in the variables u, U of Floquet's frame; a coefficient is a periodic function. The terms are graded by degree alone, and the brackets are
-//! those of every coefficient: only the solution of the homological equation knows the grid. A term h(M) u^a U^b with the harmonics h_j has
+//! those of every coefficient: the expansion of H and the solution of the homological equation alone know the grid. A term h(M) u^a U^b with the harmonics h_j has
 //!
 //! ```text
 //! S_j = h_j / (i ((b − a)·ω + j·n)),    kept: b = a and j = 0

@@ -1,8 +1,8 @@
 //! The periodic motion of a driven Hamiltonian.
 //!
 //! ẋ = J ∇H(x, M) has a solution x̄(M). One Newton step for it solves n∂δ − J S δ = r with the residual r and the matrix S of second derivatives along x̄. In the variables w of
-//! Floquet's frame, δ = P w, the harmonics of w are those of P⁻¹ r over i j·n minus an eigenvalue. From the first step whose motion has no real frame, the equation is solved at all times
-//! together, so that the multipliers of an error are those of the periodic motion. The method holds for any number of phases; with two or more x̄ and P are quasi-periodic (À. Haro and R. de la Llave, Discrete Contin. Dyn. Syst. B 6 (2006) 1261).
+//! Floquet's frame, δ = P w, the harmonics of w are those of P⁻¹ r over i j·n minus an eigenvalue. If the motion of a step has no real frame, this and the later steps solve the equation at all times
+//! together; multipliers are then those of the periodic motion. The method holds for any number of phases; with two or more x̄ and P are quasi-periodic (À. Haro and R. de la Llave, Discrete Contin. Dyn. Syst. B 6 (2006) 1261).
 
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
