@@ -228,7 +228,7 @@ def chains(edges: Imports) -> dict[str, list[str]]:
     def chain(name: str) -> list[str]:
         if name not in longest:
             room, longest[name] = name.rpartition("::")[0], [name]
-            longest[name] = max((chain(other) for other in sorted(edges[name]) if other.rpartition("::")[0] == room), key=len, default=[]) + [name]
+            longest[name] = [*max((chain(other) for other in sorted(edges[name]) if other.rpartition("::")[0] == room), key=len, default=[]), name]
         return longest[name]
 
     found: dict[str, list[str]] = {}
