@@ -27,11 +27,10 @@ impl KeptMotions {
         self.0.get(&member)
     }
 
-    /// Keeps what a member was solved to, compact, unless it was stopped. A motion may have grown since it was kept, because the averaged equations are solved where times need them.
+    /// Keeps what a member was solved to, unless it was stopped. A motion may have grown since it was kept, because the averaged equations are solved where times need them.
     pub(super) fn keep(&self, member: usize, solved: Solved) {
-        let compact = solved.as_ref().as_ref().ok().and_then(Motion::compact);
         if !matches!(*solved, Err(Error::Stopped)) {
-            self.0.keep(member, compact.map_or(solved, |motion| Arc::new(Ok(motion))));
+            self.0.keep(member, solved);
         }
     }
 }

@@ -14,7 +14,6 @@ use crate::simd::halt::GOING;
 use crate::simd::lanes::WIDEST;
 use crate::solve::several;
 
-use super::kept::Solved;
 use super::members::{BLOCK, Ensemble};
 use super::on_error::OnError;
 
@@ -50,10 +49,15 @@ impl Ensemble {
             return several(members.map(|member| self.scene(member)).collect(), each);
         }
         for member in members {
+            if let Some(kept) = self.kept.get(member) {
+                each(&kept);
+                self.kept.keep(member, kept);
+                continue;
+            }
             let solved = self.solved(member, stop);
             each(&solved);
             if self.is_kept(member) {
-                self.kept.keep(member, solved);
+                self.kept.keep(member, Arc::new(solved.map(Motion::compact)));
             }
         }
     }
@@ -68,10 +72,9 @@ impl Ensemble {
         !self.orbits_of(member).is_empty() || !torques.is_empty() || method.is_integrated()
     }
 
-    /// The motion of a member, kept or solved.
-    pub(super) fn solved(&self, member: usize, stop: &AtomicBool) -> Solved {
-        let solve = || self.scene(member).and_then(|scene| scene.served(self.served(), stop));
-        self.kept.get(member).unwrap_or_else(|| Arc::new(solve()))
+    /// The motion of a member, solved.
+    fn solved(&self, member: usize, stop: &AtomicBool) -> Result<Motion, Error> {
+        self.scene(member).and_then(|scene| scene.served(self.served(), stop))
     }
 
     /// The part of its span over which a member is solved. With [`OnError::Nan`] it ends where the error bound reaches half a turn, and only the rows of later times are NaN.
@@ -90,7 +93,7 @@ impl Ensemble {
         }
     }
 
-    /// Members that are solved at once: free bodies in lanes.
+    /// Members that are solved at once: sixteen if all are free, in lanes, else one.
     pub(super) fn group(&self) -> usize {
         if self.is_free() { WIDEST } else { 1 }
     }
@@ -104,12 +107,14 @@ impl Ensemble {
         if index >= self.len() {
             return Err(Error::Index { index, members: self.len() });
         }
-        let motion = if self.is_kept(index) {
-            let solved = self.solved(index, &GOING);
-            self.kept.keep(index, solved.clone());
-            Result::clone(&solved)
-        } else {
-            self.scene(index).and_then(|scene| scene.solve())
+        let motion = match self.kept.get(index) {
+            Some(kept) => Result::clone(&kept).map(Motion::whole),
+            None if self.is_kept(index) => {
+                let solved = self.solved(index, &GOING);
+                self.kept.keep(index, Arc::new(solved.clone()));
+                solved
+            }
+            None => self.scene(index).and_then(|scene| scene.solve()),
         };
         motion.map_err(|problem| Error::of_member(index, problem))
     }

@@ -98,9 +98,24 @@ impl Forced for Integrated {
         size_of::<Self>() + self.sides.iter().map(side).sum::<usize>()
     }
 
-    fn compact(&self) -> Option<Arc<dyn Forced>> {
-        let has_coefficients = self.sides.iter().any(|side| !side.coefficients.is_empty());
-        has_coefficients.then(|| Arc::new(self.without_coefficients()) as _)
+    fn compact(&mut self) {
+        self.sides.iter_mut().for_each(Side::compact);
+    }
+
+    fn whole(&self) -> Option<Arc<dyn Forced>> {
+        let Self { equations, order, sides, .. } = self;
+        if !sides.iter().any(|side| side.is_compact(*order)) {
+            return None;
+        }
+        let (mut whole, mut workspace) = (self.clone(), Workspace::new(equations));
+        for (index, side) in whole.sides.iter_mut().enumerate().filter(|(_, side)| side.is_compact(*order)) {
+            for step in &side.steps[..side.steps.len() - 1] {
+                let (workspace, start) = (&mut *workspace, step.start(index == 0));
+                dispatch_few(Arch::new(), StepExpansion { workspace, equations, start, order: *order });
+                side.coefficients.extend(workspace.coefficients(*order));
+            }
+        }
+        Some(Arc::new(whole))
     }
 
     fn fill(&self, arch: Arch, run: Run<'_>) -> Result<(), Halt> {

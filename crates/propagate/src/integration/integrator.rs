@@ -31,6 +31,7 @@ const SUSTAINED: usize = 1 << 14;
 /// A step is at most this part of the radius of convergence of each torque. Far from a pericentre the torque is below the rounding errors of the coefficients of
 /// the motion: steps by these alone would pass over the pericentre.
 const NEAREST: f64 = 0.5;
+
 /// The start of a step: 72 bytes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
@@ -60,9 +61,16 @@ pub(super) struct Side {
 }
 
 impl Side {
-    /// The starts of the steps alone.
-    pub(super) fn without_coefficients(&self) -> Self {
-        Self { steps: self.steps.clone(), coefficients: Vec::new() }
+    /// Keeps the starts of the steps alone.
+    pub(super) fn compact(&mut self) {
+        self.steps.shrink_to_fit();
+        self.coefficients = Vec::new();
+    }
+
+    /// Whether it lacks coefficients of an order that an integration keeps.
+    pub(super) fn is_compact(&self, order: usize) -> bool {
+        let rows = (self.steps.len() - 1) * (order + 1);
+        self.coefficients.is_empty() && rows > 0 && rows <= MOST_COEFFICIENTS
     }
 
     /// Without the steps after a time from the epoch, with the coefficients of an order.

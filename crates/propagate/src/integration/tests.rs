@@ -33,10 +33,13 @@ fn a_compact_motion_has_the_same_bits_in_a_tenth_of_the_memory() {
     let orbit = Orbit::new(0.3, 0.4).expect("an orbit").secular_rates(0.01, -0.02).expect("rates");
     let scene = scene([0.5, 0.8, 1.0], [0.3, 0.5, 1.0]).orbit(orbit).span(-40.0, 60.0);
     let kept = Integrated::new(&scene, "", (Served::WholeSpan, &AtomicBool::new(false))).expect("a motion");
-    let compact = kept.compact().expect("a compact motion");
-    assert!(10 * compact.memory() < kept.memory() && compact.compact().is_none());
-    let compact = compact.as_any().downcast_ref::<Integrated>().expect("an integrated motion");
-    let (mut one, mut other) = (Cursor::new(&kept), Cursor::new(compact));
+    let mut compact = kept.clone();
+    compact.compact();
+    let whole = compact.whole().expect("the coefficients");
+    let whole = whole.as_any().downcast_ref::<Integrated>().expect("an integrated motion");
+    assert!(10 * compact.memory() < kept.memory() && kept.whole().is_none() && whole.whole().is_none());
+    assert!(kept.sides.iter().zip(&whole.sides).all(|(one, other)| one.coefficients == other.coefficients));
+    let (mut one, mut other) = (Cursor::new(&kept), Cursor::new(&compact));
     for k in 0..=400 {
         let time = -43.0 + 0.25 * f64::from(k);
         assert_eq!(one.at((time, 0.0)), other.at((time, 0.0)));

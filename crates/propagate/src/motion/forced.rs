@@ -25,8 +25,11 @@ pub(crate) trait Forced: Debug + Send + Sync + UnwindSafe + RefUnwindSafe {
     /// Its memory, in bytes.
     fn memory(&self) -> usize;
 
-    /// The same motion in less memory, which takes longer to evaluate, or `None`.
-    fn compact(&self) -> Option<Arc<dyn Forced>> {
+    /// Drops what makes an evaluation fast and can be computed again.
+    fn compact(&mut self) {}
+
+    /// The motion with what was dropped, to the bit; `None` if nothing was.
+    fn whole(&self) -> Option<Arc<dyn Forced>> {
         None
     }
 

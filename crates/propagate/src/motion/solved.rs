@@ -2,6 +2,8 @@
 //!
 //! An evaluation of a wobble takes two sines and cosines (of ℓ′ and y′/2), the sums of theory §8, a normalization and a constant map: see [`super::trajectory`].
 
+use std::sync::Arc;
+
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::forced::End;
@@ -106,10 +108,24 @@ impl Motion {
         size_of::<Self>() + self.trajectory.memory()
     }
 
-    /// The same motion in less memory, where there is one.
-    pub(crate) fn compact(&self) -> Option<Self> {
-        let Trajectory::Forced(motion) = &self.trajectory else { return None };
-        motion.compact().map(|motion| Self { trajectory: Trajectory::Forced(motion), ..self.clone() })
+    /// The same motion in less memory, if nobody else has it. Its evaluation may take longer.
+    pub(crate) fn compact(mut self) -> Self {
+        if let Trajectory::Forced(motion) = &mut self.trajectory
+            && let Some(motion) = Arc::get_mut(motion)
+        {
+            motion.compact();
+        }
+        self
+    }
+
+    /// The motion before it was made compact, to the bit.
+    pub(crate) fn whole(mut self) -> Self {
+        if let Trajectory::Forced(motion) = &mut self.trajectory
+            && let Some(whole) = motion.whole()
+        {
+            *motion = whole;
+        }
+        self
     }
 
     /// The mean frequencies [rad per unit of time]; 0 if the motion has none.

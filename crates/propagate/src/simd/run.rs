@@ -69,6 +69,10 @@ impl<M: Evaluate> Task for InLanes<'_, M> {
     #[inline(always)]
     fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
         let Run { epoch, reach, times, outputs, grid, stop } = self.run;
+        // What takes long begins only if all times are served.
+        if !M::BY_CIRCLES {
+            all_within(times, epoch, reach)?;
+        }
         let stretch = Stretch { simd, epoch, reach, motion: self.motion, grid, stop };
         match outputs {
             Outputs::Attitudes(attitudes) => stretch.fill::<true, false>(times, (attitudes, &mut [])),
