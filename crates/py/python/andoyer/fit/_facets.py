@@ -14,6 +14,7 @@ from __future__ import annotations
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, fields
 from functools import cache
+from threading import Lock
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -236,12 +237,32 @@ class Facets(Curve):
         return mean
 
 
-def one_thread(curve: Curve) -> AbstractContextManager[Any]:
-    """Where facets are solved for, BLAS has one thread: its products are small, and the states are on threads of our own. With more of its own a step takes three times as long."""
-    if not isinstance(curve, Facets):
-        return nullcontext()
-    limit: AbstractContextManager[Any] = _blas().limit(limits=1, user_api="blas")
-    return limit
+class _OneThread:
+    """BLAS has one thread in the whole process from the first fit that enters to the last one that leaves."""
+
+    def __init__(self) -> None:
+        self.lock, self.inside = Lock(), 0
+        self.limit: Any = None
+
+    def __enter__(self) -> None:
+        with self.lock:
+            if self.inside == 0:
+                self.limit = _blas().limit(limits=1, user_api="blas")
+            self.inside += 1
+
+    def __exit__(self, *_: object) -> None:
+        with self.lock:
+            self.inside -= 1
+            if self.inside == 0:
+                self.limit.restore_original_limits()
+
+
+_ONE_THREAD = _OneThread()
+
+
+def one_thread(curve: Curve) -> AbstractContextManager[None]:
+    """Where facets are fitted, BLAS has one thread: its products are small, and the states are on threads of our own."""
+    return _ONE_THREAD if isinstance(curve, Facets) else nullcontext()
 
 
 @cache

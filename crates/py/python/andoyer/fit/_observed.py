@@ -140,7 +140,8 @@ class Light:
     def facets(self) -> FacetAreas | None:
         """The facets of the state, where they are fitted."""
         curve = self.data.curve
-        return curve.facets(self.seen.state) if isinstance(curve, Facets) else None
+        with one_thread(curve):
+            return curve.facets(self.seen.state) if isinstance(curve, Facets) else None
 
     def nights(self, count: int, units: bool) -> tuple[list[Night], int]:
         """The first nights, at most so many, and the number of all. `units`: the times are in seconds."""
@@ -199,7 +200,8 @@ class Light:
                 vectors = np.stack([np.interp(at, curve.times[order], axis[order]) for axis in own], axis=1)
             sides.append(vectors)
         directions = [vectors.T for vectors in unit_vectors(*sides)]
-        seen = curve.elsewhere(state, at, directions[0], directions[1])
+        with one_thread(curve):
+            seen = curve.elsewhere(state, at, directions[0], directions[1])
         zero = self.data.photometry.zero
         photometry = Photometry(seen, seen, None if zero is None else np.full(len(at), zero[self.data.labels == labels[place]][0]))
         return photometry.as_given(factors[place] * seen)
