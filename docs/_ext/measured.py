@@ -292,7 +292,7 @@ def light_curves() -> list[str]:
 def members() -> list[str]:
     """Seconds and memory of large ensembles, by kind."""
     columns = ["kind", "members", "epochs", "threads", "seconds", "ms_a_member", "memory_mb"]
-    head = ["kind", "members", "epochs", "threads or workers", "s", "ms a member", "largest memory [MB]"]
+    head = ["kind", "members", "epochs", "threads or workers", "s", "ms a member", "largest memory of a process [MB]"]
     return markdown(head, ([row[column] for column in columns] for row in read("members.csv")))
 
 
