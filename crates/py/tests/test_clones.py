@@ -95,6 +95,8 @@ def test_degrees_are_doubted_and_other_types_are_refused():
     published = {"precession": 27.45, "rotation": 265.7, "longitude": 246.0, "latitude": -1.0}
     with pytest.warns(UserWarning, match="published longitude = 246 is more than a whole turn"):
         fit.clones(BODY, published, np.eye(4), 1, rng=1)
+    with pytest.warns(UserWarning, match="covariance: longitude has a standard deviation of 14, more than half a turn: angles are in radians"):
+        fit.clones(BODY, published | {"longitude": 4.3}, np.diag([0.07, 6.0, 14.0, 0.12]) ** 2, 1, rng=1)
     for change in ({"body": [1, 2, 2.5]}, {"published": None}, {"errors": "raise"}):
         with pytest.raises(TypeError, match=next(iter(change))):
             fit.clones(**{"body": BODY, "published": published, "covariance": np.eye(4), "n": 1} | change)

@@ -1,5 +1,7 @@
 """Tables of orbits with velocities, samples from arrays, tables without rates."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -122,6 +124,24 @@ def test_samples_come_from_arrays():
     assert np.array_equal(samples.attitude, motion.attitude(times)) and np.array_equal(samples.times, times)
     first = Samples.from_arrays(times, np.roll(motion.attitude(times), 1, axis=1), scalar_first=True)
     assert np.array_equal(first.attitude, samples.attitude) and np.isnan(first.angular_velocity).all()
+
+
+@pytest.mark.parametrize(("factor", "said"), [(180 / np.pi, "57.3 times as fast as"), (1 / 60, "60 times slower than"), (1.0, None), (2.0, None)])
+def test_rates_in_another_unit_than_the_attitudes_turn_are_doubted(factor, said):
+    motion = Scene(Body([1.0, 1.5, 2.0]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    times = np.linspace(0, 50, 501)
+    given = times, motion.attitude(times), factor * motion.angular_velocity(times)
+    if said:
+        with pytest.warns(UserWarning, match=rf"^angular_velocity turns {said} attitudes do between times: are rates in rad"):
+            Samples.from_arrays(*given)
+        return
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Samples.from_arrays(*given)
+        # Steps of more than a radian, and attitudes without rates, say nothing.
+        coarse = np.linspace(0, 50, 11)
+        Samples.from_arrays(coarse, motion.attitude(coarse), 57.3 * motion.angular_velocity(coarse))
+        Samples.from_arrays(coarse, motion.attitude(coarse))
 
 
 def test_samples_from_arrays_are_written_and_read(tmp_path):

@@ -35,6 +35,26 @@ def test_phase_beyond_a_turn_warns_and_is_taken():
         Scene.from_periods(body, 27.38, 263.0, phases=[-1.0, 1.0])
 
 
+@pytest.mark.parametrize(
+    ("argument", "value", "unit"),
+    [
+        ("directions", (246.8, -1.0), "radians"),
+        ("directions", [(246.8, -1.0)] * 2 + [(4.3, -1.0)], "radians"),
+        ("phases", (14, 152), "turns"),
+        ("phases", [(133.0, 0.1)] * 3, "turns"),
+    ],
+)
+def test_clones_whose_angles_are_mostly_beyond_a_turn_are_doubted(argument, value, unit):
+    given = {"directions": (4.3, -1.0), "phases": (0.1, 0.2)}
+    with pytest.warns(UserWarning, match=rf"^{argument}: most are more than a whole turn: (angles|phases) are in {unit}"):
+        Ensemble.from_periods(Body([0.729, 0.947, 1.0]), [27.4] * 3, 265.0, "short-axis", **given | {argument: value})
+    # Draws about an angle within a turn may be beyond it.
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        drawn = {"directions": [(6.2, -1.0), (6.3, -1.0), (6.1, -1.0)], "phases": [(0.9, 0.1), (1.05, 0.1), (0.8, 0.1)]}
+        Ensemble.from_periods(Body([0.729, 0.947, 1.0]), [27.4] * 3, 265.0, "short-axis", **drawn)
+
+
 ABOUT = {"orbit": Orbit(1e-3), "elements_of": "rotating"}
 
 

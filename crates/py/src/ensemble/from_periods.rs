@@ -1,10 +1,14 @@
 //! `andoyer.Ensemble.from_periods`: clones of a tumbler from periods that are published with their errors.
 
+use std::f64::consts::TAU;
+use std::ffi::CString;
+
 use andoyer_propagate::nalgebra::Vector3;
 use andoyer_propagate::options::Convention;
 use andoyer_propagate::periods::ObservedPeriods;
 use andoyer_propagate::{Body, Error, Mode, Scene};
 use numpy::PyUntypedArrayMethods;
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -41,6 +45,26 @@ impl<T: Clone> Column<T> {
         }
     }
 
+    fn map<U>(self, of: impl Fn(T) -> U) -> Column<U> {
+        match self {
+            Self::OfAll(value) => Column::OfAll(of(value)),
+            Self::OfEach(values) => Column::OfEach(values.into_iter().map(of).collect()),
+        }
+    }
+
+    /// Warns if most values are beyond a whole turn: those of clones are drawn about one that is within it.
+    fn doubt(&self, py: Python<'_>, beyond: impl Fn(&T) -> bool, name: &str, unit: &str) -> PyResult<()> {
+        let values = match self {
+            Self::OfAll(value) => std::slice::from_ref(value),
+            Self::OfEach(values) => values,
+        };
+        if 2 * values.iter().filter(|value| beyond(value)).count() <= values.len() {
+            return Ok(());
+        }
+        let said = CString::new(format!("{name}: most are more than a whole turn: {unit}"))?;
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &said, 1)
+    }
+
     /// The number of members that the column has a value for, if it is not one for all.
     fn members(&self, name: &'static str) -> Option<(&'static str, usize)> {
         match self {
@@ -62,13 +86,13 @@ pub(super) struct Clones {
 
 impl Clones {
     pub(super) fn new(
-        bodies: &Bound<'_, PyAny>,
+        bodies_given: &Bound<'_, PyAny>,
         [precession, rotation]: [&Bound<'_, PyAny>; 2],
         mode: Option<&Bound<'_, PyAny>>,
         directions: Option<&Bound<'_, PyAny>>,
         phases: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let bodies = Bodies::any(bodies)?;
+        let bodies = Bodies::any(bodies_given)?;
         let has_axis = bodies.rows().is_some();
         let bodies = Column::new(bodies.each(), has_axis);
         let periods = [periods_of("precession", precession)?, periods_of("rotation", rotation)?];
@@ -76,6 +100,12 @@ impl Clones {
         let directions = directions.map_or_else(|| Ok(Column::OfAll(Ok(Vector3::z()))), directions_of)?;
         let phases = phases.map(|value| MemberRows::new("phases", value)).transpose()?;
         let phases = phases.map_or(Column::OfAll([0.0; 2]), |rows| column(rows, |phases| phases));
+        phases.doubt(
+            bodies_given.py(),
+            |[one, other]| one.abs().max(other.abs()) > 1.0,
+            "phases",
+            "phases are in turns, not in degrees or radians",
+        )?;
         let counts = [
             bodies.members("bodies"),
             periods[0].members("precession"),
@@ -147,7 +177,10 @@ fn modes_of(value: &Bound<'_, PyAny>) -> PyResult<Column<Mode>> {
 /// Vectors, or longitudes and latitudes.
 fn directions_of(value: &Bound<'_, PyAny>) -> PyResult<Column<Result<Vector3<f64>, Error>>> {
     if let Ok(pairs) = MemberRows::<2>::new("directions", value) {
-        return Ok(column(pairs, |[longitude, latitude]| {
+        let angles = column(pairs, |angles| angles);
+        let unit = "angles are in radians, not in degrees";
+        angles.doubt(value.py(), |[longitude, _]| longitude.abs() > TAU, "directions", unit)?;
+        return Ok(angles.map(|[longitude, latitude]| {
             ObservedPeriods::new(1.0, 1.0).towards(longitude, latitude).map(|periods| periods.momentum_direction)
         }));
     }

@@ -97,6 +97,7 @@ def clones(
     names = _names(published, {"directions": directions, "phases": phases})
     means = _means(published, names)
     matrix = covariances("covariance", covariance, (len(names), len(names)))
+    _doubt(names, np.sqrt(np.diag(matrix)))
     draws = means + generator.standard_normal((count, len(names))) @ np.linalg.cholesky(matrix).T
     drawn = dict(zip(names, draws.T, strict=True))
     if POLE[0] in drawn:
@@ -117,6 +118,14 @@ def clones(
         errors="nan",
         **options,
     )
+
+
+def _doubt(names: tuple[str, ...], deviations: Array) -> None:
+    """Warns of angles whose standard deviations are more than half a turn, which are probably in degrees."""
+    for name, deviation in zip(names, deviations, strict=True):
+        half, unit = (np.pi, "angles are in radians") if name in POLE else (0.5, "phases are in turns")
+        if name in (*POLE, *PHASES) and deviation > half:
+            warnings.warn(f"covariance: {name} has a standard deviation of {deviation:g}, more than half a turn: {unit}, not in degrees", stacklevel=3)
 
 
 def _means(published: Mapping[str, float], names: tuple[str, ...]) -> Array:

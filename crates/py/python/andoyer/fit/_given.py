@@ -1,5 +1,6 @@
 """Arguments of the fits: arrays of the right shapes, or an `InputError` that names the argument, its value and the bound."""
 
+import reprlib
 import sys
 from typing import Any
 
@@ -23,7 +24,7 @@ def finite(argument: str, value: ArrayLike) -> Array:
     try:
         array = np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError):
-        raise refusal(argument, repr(value), "numbers", f"= {value!r}: it must be numbers") from None
+        raise refusal(argument, repr(value), "numbers", f"= {reprlib.repr(value)}: it must be numbers") from None
     bad = np.argwhere(~np.isfinite(array))
     if len(bad):
         place = "".join(f"[{index}]" for index in bad[0])

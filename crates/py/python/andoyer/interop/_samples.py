@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
@@ -32,9 +33,25 @@ def from_arrays(times: Any, attitudes: Any, angular_velocity: Any, epoch: Any, s
     rates = np.full((count, 3), np.nan)
     if angular_velocity is not None:
         rates = _numbers("angular_velocity", plain("angular_velocity", angular_velocity), (count, 3), unknown=True)
+        _doubt(seconds, attitude, rates)
     # A norm that normalization leaves stays, so that samples of a motion keep their bits.
     norms[np.abs(norms - 1) <= 2 * np.finfo(float).eps] = 1.0
     return samples_of(seconds, attitude / norms[:, None], rates, dates)
+
+
+def _doubt(times: Array, attitudes: Array, rates: Array) -> None:
+    """Warns of rates that turn by another angle than the attitudes do, most likely in another unit. Steps of more than a radian say nothing: the attitudes may have turned by more."""
+    steps = np.diff(times)
+    turned = 2 * np.arccos(np.minimum(np.abs(np.sum(attitudes[1:] * attitudes[:-1], axis=1)), 1.0))
+    sizes = np.linalg.norm(rates, axis=1)
+    stated = 0.5 * (sizes[1:] + sizes[:-1]) * steps
+    clear = (turned > 1e-3) & (turned < 1) & (stated > 0)
+    factors = stated[clear] / turned[clear]
+    if clear.sum() < 3 or 0.2 < np.median(factors) < 5:
+        return
+    factor = float(np.median(factors))
+    said = f"{factor:.3g} times as fast as" if factor > 1 else f"{1 / factor:.3g} times slower than"
+    warnings.warn(f"angular_velocity turns {said} attitudes do between times: are rates in rad per unit of the times, and not in degrees?", stacklevel=4)
 
 
 def _times(times: Any, epoch: Any) -> tuple[Array, Any]:
