@@ -61,9 +61,9 @@ pub(super) struct Side {
 }
 
 impl Side {
-    /// Keeps the starts of the steps alone.
+    /// Keeps the starts of the steps alone. They are copied first: where they grew beside the coefficients they would leave holes in the memory of many motions.
     pub(super) fn compact(&mut self) {
-        self.steps.shrink_to_fit();
+        self.steps = self.steps.clone();
         self.coefficients = Vec::new();
     }
 
