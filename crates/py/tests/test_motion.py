@@ -114,6 +114,17 @@ BAD_OUTS = {
 }
 
 
+@pytest.mark.parametrize("method", ["auto", "integrated"])
+def test_a_time_beyond_the_span_leaves_the_output_of_a_motion_under_a_torque_as_it_was(method):
+    scene = Scene(Body([1, 1.02, 1.05]), [0, 0, 0, 1], [0, 0.01, 1], orbit=andoyer.Orbit(2e-3, 0.1), span=(0, 1e3), tolerance=1e-4, method=method)
+    motion, times = scene.solve(), np.append(np.linspace(0, 1e3, 2999), 1e300)
+    assert motion.plan.method == ("closed" if method == "auto" else method)
+    out = np.full((3000, 4), 7.0)
+    with pytest.raises(andoyer.RepresentationError, match=r"times\[2999\]"):
+        motion.attitude(times, out=out)
+    assert (out == 7.0).all()
+
+
 @pytest.mark.parametrize("out, error, message", BAD_OUTS.values(), ids=BAD_OUTS)
 def test_bad_out_is_refused(motion, out, error, message):
     with pytest.raises(error, match=message):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from andoyer._core import Samples
-from andoyer._quaternions import Array
+from andoyer._quaternions import Array, angle_between
 from andoyer._refusal import refusal
 from andoyer.interop._attitudes import quaternions
 from andoyer.interop._foreign import epochs, joined, later, parts, plain
@@ -40,11 +40,10 @@ def from_arrays(times: Any, attitudes: Any, angular_velocity: Any, epoch: Any, s
 
 
 def _doubt(times: Array, attitudes: Array, rates: Array) -> None:
-    """Warns of rates that turn by another angle than the attitudes do, most likely in another unit. Steps of more than a radian say nothing: the attitudes may have turned by more."""
-    steps = np.diff(times)
-    turned = 2 * np.arccos(np.minimum(np.abs(np.sum(attitudes[1:] * attitudes[:-1], axis=1)), 1.0))
+    """Warns of rates in another unit: over the steps in which the attitudes turn by 1e-3 to 1 rad, the rates turn by less than a fifth of that or more than five times that, in the median."""
+    turned = angle_between(attitudes[1:], attitudes[:-1])
     sizes = np.linalg.norm(rates, axis=1)
-    stated = 0.5 * (sizes[1:] + sizes[:-1]) * steps
+    stated = 0.5 * (sizes[1:] + sizes[:-1]) * np.diff(times)
     clear = (turned > 1e-3) & (turned < 1) & (stated > 0)
     factors = stated[clear] / turned[clear]
     if clear.sum() < 3 or 0.2 < np.median(factors) < 5:
