@@ -1,11 +1,12 @@
 """Sphinx extension: tables from the committed figures in docs/data, so that a page always agrees with its file.
 
-A block marked `measured` contains the name of one of the tables below.
+A block marked `measured` contains the name of one of the tables below. Date, commit and files of the figures stand under the table.
 """
 
 import csv
 import re
 import statistics
+import subprocess
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -19,12 +20,36 @@ DATA = Path(__file__).resolve().parents[1] / "data"
 BODY_EPOCHS = 1e9
 
 Row = dict[str, str]
+# The files of the table that is being written.
+FILES: list[str] = []
 
 
 def read(name: str) -> list[Row]:
     """The lines of a file of figures."""
+    if name not in FILES:
+        FILES.append(name)
     with (DATA / name).open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
+
+
+def since(commit: str) -> str:
+    """How many commits ago that was; nothing where Git does not know the commit."""
+    try:
+        counted = subprocess.run(["git", "rev-list", "--count", f"{commit}..HEAD"], cwd=DATA, capture_output=True, text=True, check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+    count = int(counted.stdout)
+    return f", {count} commit{'s' * (count != 1)} ago"
+
+
+def origins(files: Iterable[str]) -> list[str]:
+    """Date and commit of files of figures: a paragraph in Markdown."""
+    with (DATA / "provenance.csv").open(encoding="utf-8", newline="") as file:
+        rows = {row["file"]: row for row in csv.DictReader(file)}
+    runs: dict[tuple[str, str], list[str]] = {}
+    for name in files:
+        runs.setdefault((rows[name]["date"], rows[name]["commit"]), []).append(f"[{name}](/data/{name})")
+    return [f"Measured on {date} at commit {commit}{since(commit)}: {', '.join(names)}." for (date, commit), names in runs.items()]
 
 
 def plain(cell: str) -> str:
@@ -483,8 +508,10 @@ class Measured(SphinxDirective):
             self.env.note_reread()
         for file in DATA.glob("*.csv"):
             self.env.note_dependency(str(file))
+        FILES.clear()
+        lines = TABLES[name]()
         container = nodes.container()
-        self.state.nested_parse(StringList(TABLES[name](), source=name), 0, container)
+        self.state.nested_parse(StringList([*lines, "", *origins(FILES)], source=name), 0, container)
         return container.children
 
 
