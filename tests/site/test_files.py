@@ -69,3 +69,10 @@ def test_the_table_of_what_is_verified_has_each_test_file_with_its_claim():
     assert {path.name for path in (root / "tests/tests").glob("*.rs")} - set(files) == {"main.rs"}
     assert all(len(claim) > 20 and int(tests) > 0 for _, claim, _, tests in cells)
     assert files["oracle.rs"][1] == "P_n from the energy integral (theory §5), which knows nothing of Lie transforms."
+
+
+@pytest.mark.parametrize("page", sorted((SITE.parents[1] / "docs").glob("*.md")), ids=lambda page: page.stem)
+def test_each_table_of_figures_says_date_and_commit(page):
+    tables = [name for name in re.findall(r"```measured\n(.+)\n```", page.read_text(encoding="utf-8")) if name != "verified"]
+    built = (SITE / f"{page.stem}.html").read_text(encoding="utf-8")
+    assert len(re.findall(r"Measured on \d{4}-\d\d-\d\d at commit [0-9a-f]{7,}\b", built)) >= len(tables)
