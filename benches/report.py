@@ -1,6 +1,6 @@
-"""Write the measured figures as text and pictures: the end of docs/speed.md, docs/performance.png, docs/rivals.png and the table of the README.
+"""Write the measured figures as text and pictures: the beginning of docs/speed.md, docs/performance.png, docs/rivals.png, the table of the README, the end of benches/README.md.
 
-    python benches/report.py          `make report`, from docs/data/bench.csv, work-precision.csv and stress.csv
+    python benches/report.py          `make report`, from docs/data
 
 This script measures nothing, and refuses figures that are not those of one run (figures.py). The tables show where a rival is faster at the same error.
 """

@@ -16,10 +16,15 @@ import andoyer
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "coming-from.md"
 
 
+def lines():
+    """The lines of heyoka on the page. No test of the pages runs them, so they stand in a block of text."""
+    (found,) = re.findall(r"```text\n(import heyoka\n.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    return found
+
+
 def main():
-    (lines,) = re.findall(r"```python\n(import heyoka\n.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     theirs = {}
-    exec(compile(lines, str(PAGE), "exec"), theirs)
+    exec(compile(lines(), str(PAGE), "exec"), theirs)
     motion = andoyer.Scene(andoyer.Body([1.0, 1.5, 2.0]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
     difference = abs(theirs["integrator"].state - np.concatenate([motion.attitude(100.0), motion.angular_velocity(100.0)])).max()
     print(f"docs/coming-from.md, heyoka: attitude and rates differ by {difference:.1e}")

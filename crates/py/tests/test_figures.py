@@ -71,3 +71,10 @@ def test_a_source_that_was_touched_is_found(figures, data, tmp_path):
     after = figures.sources(sources)
     assert after != before
     assert len([fault for fault in figures.faults(data, after) if "other sources than those of today" in fault]) == len(rows)
+
+
+def test_the_page_has_the_lines_that_are_run_with_heyoka(monkeypatch):
+    monkeypatch.syspath_prepend(REPOSITORY / "benches" / "rivals")
+    import coming_from
+
+    assert "heyoka.taylor_adaptive(" in coming_from.lines()
