@@ -100,9 +100,11 @@ scenes: $(VENV)/installed  ## the example scenes and an ensemble: docs/data/scen
 light-curves: $(VENV)/installed  ## light curves with known answers: docs/data/light-curves.csv; some minutes
 	$(BIN)/python benches/light_curves.py
 
-verdicts: $(VENV)/installed  ## how often verdicts on simulated light curves are right: docs/data/verdicts.csv; a quarter of an hour
+verdicts: $(VENV)/installed  ## how often verdicts on simulated light curves are right, by model of the body: docs/data/verdicts.csv; three quarters of an hour
 	rm -f docs/data/verdicts.csv
-	$(BIN)/python benches/verdicts.py --seed 300 --count 30 --starts 1000 --out docs/data/verdicts.csv
+	for model in ellipsoid facets; do \
+	  $(BIN)/python benches/verdicts.py --seed 300 --count 30 --starts 1000 --model $$model --out docs/data/verdicts.csv || exit 1; \
+	done
 
 libration-reach: $(VENV)/installed  ## the share of random locked scenes that are served: docs/data/libration-reach.csv and its picture; some minutes
 	cargo build --release --quiet --package andoyer-tests --features programs --bin libration

@@ -1,6 +1,7 @@
 """Measure how well the verdict on fitted light curves is calibrated, on simulated data that are made without the library and without its model.
 
     python benches/verdicts.py --count 40 --out verdicts.csv       fits data sets, one row each, then prints the tables; seeds that are in the file already are left out
+    python benches/verdicts.py --model facets …                    the same with `shape="facets"`; rows of both models may stand in one file
     python benches/verdicts.py --test                              compares the simulation with the library, 10 data sets
 
 A data set has a body of facets (ellipsoid, egg, box, smoothed box), whose moments are sums over tetrahedra; a motion from Euler's equations by DOP853 of SciPy; one of three laws of scattering; directions
@@ -31,7 +32,8 @@ LAWS = ("lambert", "lommel-seeliger", "lommel-seeliger + 0.1 lambert")
 PARTS = ("periods", "pole", "mode")
 ANSWERS = ("secure right", "secure wrong", "ambiguous", "not determined")
 NONE = "–"
-AXES_ERROR, NEAR_POLE, HALF_TURN, STARTS, SHAPE = 0.1, 10.0, 0.5, 20_000, True
+MODELS = {"ellipsoid": True, "facets": "facets"}
+AXES_ERROR, NEAR_POLE, HALF_TURN, STARTS = 0.1, 10.0, 0.5, 20_000
 
 
 # Bodies
@@ -343,42 +345,42 @@ def truth_in(verdict, fit, truth):
     return right | {"secure": all(right[part] for part in secure)}
 
 
-def fitted(data, axes=None, **options):
-    """The fit of a data set."""
+def fitted(data, model, axes=None, **options):
+    """The fit of a data set by one of MODELS."""
     from andoyer import fit
 
-    given = {name: data[name] for name in ("sun", "observer", "curves")} | {"shape": SHAPE} | options
+    given = {name: data[name] for name in ("sun", "observer", "curves")} | {"shape": MODELS[model]} | options
     axes = data["axes"] if axes is None else axes
     return fit.light_curve(axes, data["times"], magnitudes=data["magnitudes"], sigma=data["sigma"], **given)
 
 
-def from_truth(data):
+def from_truth(data, model):
     """χ² of the minimum next to the true state and the true axes; NaN if the search fails. A best minimum above it was missed by the starts."""
     from andoyer import Body, Error, Scene
 
     truth = data["truth"]
     try:
         scene = Scene(Body.ellipsoid(*truth["axes"]), truth["attitude"], truth["angular_velocity"])
-        return float(fitted(data, truth["axes"], scene=scene).chi_square)
+        return float(fitted(data, model, truth["axes"], scene=scene).chi_square)
     except Error:
         return np.nan
 
 
-def row(seed, starts):
+def row(seed, starts, model):
     """One row of the table."""
     from andoyer import Error
 
     data = draw(seed)
     truth = data["truth"]
     line = {
-        "seed": seed, "class": truth["class"], "kind": truth["kind"], "shape": truth["shape"], "law": truth["law"], "nights": int(data["curves"].max()) + 1, "points": len(data["times"]),
+        "seed": seed, "model": model, "class": truth["class"], "kind": truth["kind"], "shape": truth["shape"], "law": truth["law"], "nights": int(data["curves"].max()) + 1, "points": len(data["times"]),
         "span [h]": f"{truth['span']:.2f}", "noise [mag]": f"{truth['noise']:.4f}", "signal to noise": f"{truth['signal'] / truth['noise']:.2f}", "starts": starts,
         "true mode": truth["mode"], "true P_φ [h]": f"{truth['periods'][0]:.6g}", "true P_ψ [h]": f"{truth['periods'][1]:.6g}",
         "true longitude [°]": f"{truth['pole'][0]:.2f}", "true latitude [°]": f"{truth['pole'][1]:.2f}",
     }  # fmt: skip
     begin = time.process_time()
     try:
-        found = fitted(data, periods=data["periods"], starts=starts, rng=seed)
+        found = fitted(data, model, periods=data["periods"], starts=starts, rng=seed)
     except Error as error:
         return line | {"processor [s]": f"{time.process_time() - begin:.1f}", "error": str(error)}
     verdict = found.verdict
@@ -396,7 +398,7 @@ def row(seed, starts):
         "best mode": state[0], "P_φ [h]": f"{state[1][0]:.6g}", "P_ψ [h]": f"{state[1][1]:.6g}", "pole apart [°]": f"{apart:.2f}", "pole σ [°]": f"{deviation:.3g}",
         **{f"right {part}": int(right[part]) for part in PARTS}, **{f"verdict {part}": getattr(verdict, part) for part in PARTS}, "secure is right": int(right["secure"]),
         "simple": int(verdict.simple), "P [h]": f"{found.simple_rotation.period:.6g}",
-        "reduced χ²": f"{found.reduced_chi_square:.4g}", "χ²": f"{least:.2f}", "χ² from truth": f"{from_truth(data):.2f}", "minima": len(found.optima),
+        "reduced χ²": f"{found.reduced_chi_square:.4g}", "χ²": f"{least:.2f}", "χ² from truth": f"{from_truth(data, model):.2f}", "minima": len(found.optima),
         "truth is minimum": places[0] + 1 if places else "", "truth Δχ²": f"{found.optima[places[0]].chi_square - least:.2f}" if places else "",
         **{f"margin {part}": f"{margin:.4g}" for part, margin in zip(PARTS, verdict.margins)}, "reached": verdict.reached,
         "chance": f"{found.simple_rotation.probability:.3g}", "processor [s]": f"{processor:.1f}", "error": "",
@@ -429,26 +431,26 @@ def tables(lines):
 
 
 COLUMNS = [
-    "seed", "class", "kind", "shape", "law", "nights", "points", "span [h]", "noise [mag]", "signal to noise", "starts", "true mode", "true P_φ [h]", "true P_ψ [h]",
+    "seed", "model", "class", "kind", "shape", "law", "nights", "points", "span [h]", "noise [mag]", "signal to noise", "starts", "true mode", "true P_φ [h]", "true P_ψ [h]",
     "true longitude [°]", "true latitude [°]", "best mode", "P_φ [h]", "P_ψ [h]", "pole apart [°]", "pole σ [°]", *(f"right {part}" for part in PARTS), *(f"verdict {part}" for part in PARTS),
     "secure is right", "simple", "P [h]", "reduced χ²", "χ²", "χ² from truth", "minima", "truth is minimum", "truth Δχ²", *(f"margin {part}" for part in PARTS), "reached", "chance", "processor [s]", "error",
 ]  # fmt: skip
 
 
-def main(count, seed, out, starts=STARTS):
-    """Fits data sets from a seed on, writes a row each, and prints the tables of all rows of the file."""
+def main(count, seed, out, starts=STARTS, model="ellipsoid"):
+    """Fits data sets from a seed on, writes a row each, and prints the tables of all rows of this model."""
     out = Path(out)
     known = list(csv.DictReader(out.open(encoding="utf-8", newline=""))) if out.exists() else []
-    done = {int(line["seed"]) for line in known}
+    done = {int(line["seed"]) for line in known if line["model"] == model}
     with out.open("a", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS, restval=NONE, lineterminator="\n")
         if not known:
             writer.writeheader()
         for place in range(seed, seed + count):
             if place not in done:
-                writer.writerow({name: NONE if cell == "" else cell for name, cell in row(place, starts).items()})
+                writer.writerow({name: NONE if cell == "" else cell for name, cell in row(place, starts, model).items()})
                 file.flush()
-    tables(list(csv.DictReader(out.open(encoding="utf-8", newline=""))))
+    tables([line for line in csv.DictReader(out.open(encoding="utf-8", newline="")) if line["model"] == model])
 
 
 def test(count):
@@ -489,9 +491,10 @@ if __name__ == "__main__":
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--out", default="verdicts.csv")
     parser.add_argument("--starts", type=int, default=STARTS)
+    parser.add_argument("--model", choices=MODELS, default="ellipsoid")
     parser.add_argument("--test", action="store_true")
     arguments = parser.parse_args()
     if arguments.test:
         test(10)
     else:
-        main(arguments.count, arguments.seed, arguments.out, arguments.starts)
+        main(arguments.count, arguments.seed, arguments.out, arguments.starts, arguments.model)

@@ -4,6 +4,7 @@ A block marked `measured` contains the name of one of the tables below. Date, co
 """
 
 import csv
+import itertools
 import re
 import statistics
 import subprocess
@@ -353,20 +354,20 @@ def pulls() -> list[str]:
 
 
 def verdicts() -> list[str]:
-    """How often the verdicts on simulated light curves are right, by quantity and class."""
+    """How often the verdicts on simulated light curves are right, by quantity, class of motion and model of the body."""
     rows = [row for row in read("verdicts.csv") if row["error"] == "–"]
     lines = []
     for part in ("periods", "pole", "mode"):
-        for name in ("short-axis", "long-axis", "principal-axis", "underdetermined"):
-            of_class = [row for row in rows if row["class"] == name]
+        for name, model in itertools.product(("short-axis", "long-axis", "principal-axis", "underdetermined"), ("ellipsoid", "facets")):
+            of_class = [row for row in rows if (row["class"], row["model"]) == (name, model)]
             said = [(row[f"verdict {part}"], row[f"right {part}"] == "1") for row in of_class]
             counts = [
                 said.count(("secure", True)),
                 said.count(("secure", False)),
                 *(sum(word == other for word, _ in said) for other in ("ambiguous", "not determined")),
             ]
-            lines.append([part, name, str(len(of_class)), *map(str, counts), str(sum(right for _, right in said))])
-    return markdown(["", "class", "sets", "secure and right", "secure and wrong", "ambiguous", "not determined", "best state right"], lines)
+            lines.append([part, name, model, str(len(of_class)), *map(str, counts), str(sum(right for _, right in said))])
+    return markdown(["", "class", "model", "sets", "secure and right", "secure and wrong", "ambiguous", "not determined", "best state right"], lines)
 
 
 def nature_moon() -> list[str]:
