@@ -47,6 +47,9 @@ def origins(files: Iterable[str]) -> list[str]:
     """Date and commit of files of figures: a paragraph in Markdown."""
     with (DATA / "provenance.csv").open(encoding="utf-8", newline="") as file:
         rows = {row["file"]: row for row in csv.DictReader(file)}
+    unknown = [name for name in files if name not in rows]
+    if unknown:
+        raise LookupError(f"measured: {', '.join(unknown)} has no row in provenance.csv: run `make figures`")
     runs: dict[tuple[str, str], list[str]] = {}
     for name in files:
         runs.setdefault((rows[name]["date"], rows[name]["commit"]), []).append(f"[{name}](/data/{name})")

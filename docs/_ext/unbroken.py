@@ -6,7 +6,7 @@ from typing import Any
 from docutils import nodes
 from sphinx.application import Sphinx
 
-NUMBER = re.compile(r"([−-]?\d[\d.,]*e[−-]?\d+)")
+NUMBER = re.compile(r"((?<!\w)[−-]?\d[\d.,]*e[−-]?\d+(?!\w))")
 SHORT = 16
 """A cell with so many characters is not broken."""
 

@@ -71,8 +71,33 @@ def test_the_table_of_what_is_verified_has_each_test_file_with_its_claim():
     assert files["oracle.rs"][1] == "P_n from the energy integral (theory §5), which knows nothing of Lie transforms."
 
 
-@pytest.mark.parametrize("page", sorted((SITE.parents[1] / "docs").glob("*.md")), ids=lambda page: page.stem)
+def tables_of(page):
+    """The names of the tables of figures on a page."""
+    return [name for name in re.findall(r"```measured\n(.+)\n```", page.read_text(encoding="utf-8")) if name != "verified"]
+
+
+MEASURED = [page for page in sorted((SITE.parents[1] / "docs").glob("*.md")) if tables_of(page)]
+
+
+@pytest.mark.parametrize("page", MEASURED, ids=lambda page: page.stem)
 def test_each_table_of_figures_says_date_and_commit(page):
-    tables = [name for name in re.findall(r"```measured\n(.+)\n```", page.read_text(encoding="utf-8")) if name != "verified"]
     built = (SITE / f"{page.stem}.html").read_text(encoding="utf-8")
-    assert len(re.findall(r"Measured on \d{4}-\d\d-\d\d at commit [0-9a-f]{7,}\b", built)) >= len(tables)
+    assert len(re.findall(r"<p>Measured on \d{4}-\d\d-\d\d at commit [0-9a-f]{7,}\b", built)) == len(tables_of(page))
+
+
+@pytest.fixture
+def measured(monkeypatch):
+    monkeypatch.syspath_prepend(SITE.parents[1] / "docs" / "_ext")
+    import measured
+
+    return measured
+
+
+def test_how_long_ago_a_commit_was(measured):
+    assert measured.since("HEAD") == ", 0 commits ago"
+    assert measured.since("0000000") == ""
+
+
+def test_a_file_of_figures_without_an_origin_is_named(measured):
+    with pytest.raises(LookupError, match="none.csv has no row in provenance.csv"):
+        measured.origins(["bench.csv", "none.csv"])
