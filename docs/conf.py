@@ -38,6 +38,7 @@ html_title = "andoyer"
 html_math_renderer = "mathml"
 html_static_path = ["_static"]
 html_favicon = "_static/favicon.svg"
+html_logo = html_favicon
 html_css_files = ["site.css"]
 PLAYGROUND = DOCS.parent / "target" / "playground"
 if PLAYGROUND.exists():
