@@ -14,13 +14,13 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+from cycler import cycler
 from matplotlib.axes import Axes
 
 import andoyer
 from andoyer import fit
 
 COLORS = ("#0072B2", "#D55E00", "#009E73")
-STYLE = {"font.size": 11, "axes.spines.top": False, "axes.spines.right": False, "axes.prop_cycle": matplotlib.cycler(color=COLORS)}
 SIZE = (4.2, 2.1)
 """Width and height [in]; a card is some 400 pixels wide."""
 DAY, TURN, ARCSECOND = 86400.0, 2 * math.pi, math.pi / 648000
@@ -28,9 +28,8 @@ DAY, TURN, ARCSECOND = 86400.0, 2 * math.pi, math.pi / 648000
 
 def spacecraft(axes: Axes) -> None:
     """A satellite with its boom towards the Earth, released with a rate: roll, pitch and yaw over five revolutions."""
-    orbit = andoyer.Orbit(TURN / 5700)
-    given = {"orbit": orbit, "elements_of": "rotating", "frame": "lvlh", "span": (0, 5 * 5700.0), "tolerance": 1e-6}
-    released = andoyer.Scene.from_orbital(andoyer.Body([0.9, 1.0, 0.2]), [0, 0, 0], [3e-4, 3e-4, 2e-4], **given)
+    body, orbit, rates = andoyer.Body([0.9, 1.0, 0.2]), andoyer.Orbit(TURN / 5700), [3e-4, 3e-4, 2e-4]
+    released = andoyer.Scene.from_orbital(body, [0, 0, 0], rates, orbit=orbit, elements_of="rotating", frame="lvlh", span=(0, 5 * 5700.0), tolerance=1e-6)
     times = np.linspace(0, 5 * 5700, 800)
     angles = np.degrees(released.solve().orbital(times, elements_of="rotating", frame="lvlh").angles)
     for name, values in zip(("yaw", "pitch", "roll"), angles.T, strict=True):
@@ -85,7 +84,9 @@ def moon(axes: Axes) -> None:
     body, orbit = andoyer.Body([0.99937142, 0.9995989, 1.0]), andoyer.Orbit(TURN / 27.321661, 0.0549)
     scene = andoyer.Scene.locked(body, orbit, amplitudes=(8 * ARCSECOND, 0, 0), span=(0, 40000.0), tolerance=1e-7, method="libration")
     times = np.linspace(0, 3 * 365.25, 1500)
-    terms = [term for term in scene.solve().libration.terms() if term.angle == "longitude"]
+    libration = scene.solve().libration
+    assert libration is not None
+    terms = [term for term in libration.terms() if term.angle == "longitude"]
     longitude = sum(term.amplitude * np.sin(term.phase + TURN * times / term.period) for term in terms)
     axes.plot(times / 365.25, longitude / ARCSECOND, linewidth=1)
     axes.set(xlabel="time [years]", ylabel='longitude ["]')
@@ -98,7 +99,7 @@ def main() -> None:
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parents[1] / "docs" / "cards")
     folder.mkdir(parents=True, exist_ok=True)
     for name, draw in CARDS.items():
-        with plt.rc_context(STYLE):
+        with plt.rc_context({"font.size": 11, "axes.spines.top": False, "axes.spines.right": False, "axes.prop_cycle": cycler(color=COLORS)}):
             figure, axes = plt.subplots(figsize=SIZE, layout="constrained")
             draw(axes)
             figure.savefig(folder / f"{name}.png", dpi=200, metadata={"Software": None})
