@@ -71,7 +71,7 @@ impl Evolution {
     }
 
     /// What becomes of it beyond the separatrix: for each mode and sense that members with evenly spread phases reach, the share of the members and the averaged motion of one of them up to the
-    /// end of the span, the most frequent first. Their starts are spread over some wobbles, too. In the passage a torque across the angular momentum takes the power of inner friction. An evolution that ends otherwise is its own, with the share 1.
+    /// end of the span, the most frequent first. Their starts are spread over some wobbles, too. In the passage a torque across the angular momentum takes the power of internal friction. An evolution that ends otherwise is its own, with the share 1.
     ///
     /// # Errors
     /// - [`Error::Number`] for no members; those of [`Scene::solve`] and [`Scene::evolve`]; [`Error::NotAveraged`] if a member stays at the separatrix.

@@ -154,7 +154,7 @@ impl Motion {
             .map(|(rows, ())| rows)
     }
 
-    /// Evaluates the angular momentum in inertial components, in the unit of moment × rate. It is constant unless the scene has an orbit.
+    /// Evaluates the angular momentum in inertial components, in the unit of moment × rate. It is constant unless the scene has an orbit or torques.
     ///
     /// Parameters
     /// ----------

@@ -57,7 +57,7 @@ impl Torque {
 
     /// The torque −Dω, with the angular velocity relative to inertial space.
     ///
-    /// It takes angular momentum from the body. Inner friction does not: see `Dissipation`.
+    /// It takes angular momentum from the body. Internal friction does not: see `Dissipation`.
     ///
     /// Parameters
     /// ----------
@@ -96,7 +96,7 @@ impl Torque {
         made(Inner::rotor(fixed("momentum", momentum)?))
     }
 
-    /// Inner friction, which takes energy at constant angular momentum: a term of `Scene.evolve` and `Scene.drift` alone. A scene with it is not solved.
+    /// Internal friction, which takes energy at constant angular momentum: a term of `Scene.evolve` and `Scene.drift` alone. A scene with it is not solved.
     ///
     /// Parameters
     /// ----------

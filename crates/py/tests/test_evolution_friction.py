@@ -1,4 +1,4 @@
-"""Inner friction in averaged motions, against its own quadrature, closed forms and the full equations; members, progress."""
+"""Internal friction in averaged motions, against its own quadrature, closed forms and the full equations; members, progress."""
 
 import pickle
 

@@ -38,7 +38,7 @@ pub(super) struct AveragedTorques {
     pub(super) epoch: f64,
     pub(super) sources: Vec<MovingSource>,
     parts: Vec<TorquePart>,
-    /// Inner friction.
+    /// Internal friction.
     losses: Vec<EnergyLoss>,
     monomials: Vec<EvenMonomial>,
 }
@@ -113,7 +113,7 @@ impl AveragedTorques {
         Err(torque_refused("dissipation", uniform, "0 at the excess 0, where the body rotates uniformly"))
     }
 
-    /// The power of inner friction over the largest moment.
+    /// The power of internal friction over the largest moment.
     ///
     /// # Errors
     /// Those of its functions.
@@ -123,7 +123,7 @@ impl AveragedTorques {
         self.losses.iter().map(|loss| loss.power_over(self.moments.z, &state)).sum()
     }
 
-    /// ξ̇ by inner friction, at constant angular momentum.
+    /// ξ̇ by internal friction, at constant angular momentum.
     fn excess_rate_by_loss(&self, size: f64, excess: f64) -> Result<f64, Error> {
         if self.losses.is_empty() {
             return Ok(0.0);
@@ -134,7 +134,7 @@ impl AveragedTorques {
         Ok(2.0 * of_own * self.loss(rate, excess)? / (rate * rate))
     }
 
-    /// The equations without inner friction, and whether they had any.
+    /// The equations without internal friction, and whether they had any.
     pub(super) fn without_losses(&self) -> (Self, bool) {
         (Self { losses: Vec::new(), ..self.clone() }, !self.losses.is_empty())
     }

@@ -181,7 +181,7 @@ impl Evolution {
         AveragedScene::new(scene, self.average())?.mean()
     }
 
-    /// A scene of the same body and torques, with a torque of a rigid body for inner friction.
+    /// A scene of the same body and torques, with a torque of a rigid body for internal friction.
     pub(crate) fn with_friction(&self, scene: &Scene) -> Result<Scene, Error> {
         AveragedScene::new(scene, self.average())?.with_friction(scene)
     }

@@ -1,4 +1,4 @@
-//! A torque of a rigid body that takes energy at constant angular momentum, in place of inner friction near the separatrix (weak torques §7).
+//! A torque of a rigid body that takes energy at constant angular momentum, in place of internal friction near the separatrix (weak torques §7).
 //!
 //! T = κ(h(h·ω) − ω h²) with the body's angular momentum h is across h, so |h| stays, and takes the power κ(h²ω² − (h·ω)²).
 
@@ -12,7 +12,7 @@ use crate::input::torque::Torque;
 const POINTS: usize = 256;
 
 impl AveragedScene {
-    /// A scene of the same body in whose torques inner friction is replaced by κ(h(h·ω) − ωh²) of the same mean power at its state.
+    /// A scene of the same body in whose torques internal friction is replaced by κ(h(h·ω) − ωh²) of the same mean power at its state.
     ///
     /// # Errors
     /// Those of the functions of the power.

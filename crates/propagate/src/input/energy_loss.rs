@@ -1,4 +1,4 @@
-//! The loss of energy by inner friction, a term of the averaged equations (weak torques §1: Ġ = 0, ξ̇ = ∓2IP/M²).
+//! The loss of energy by internal friction, a term of the averaged equations (weak torques §1: Ġ = 0, ξ̇ = ∓2IP/M²).
 
 use std::any::Any;
 use std::fmt;
@@ -23,7 +23,7 @@ pub struct LossState {
 /// A power as a function of the state.
 type PowerFunction = Arc<dyn Fn(&LossState) -> Result<f64, Error> + Send + Sync>;
 
-/// The power that inner friction takes from a tumbling body at constant angular momentum.
+/// The power that internal friction takes from a tumbling body at constant angular momentum.
 #[derive(Clone)]
 pub struct EnergyLoss {
     power: PowerFunction,

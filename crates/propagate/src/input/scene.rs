@@ -175,7 +175,7 @@ impl Scene {
         Self { state, rate_lows: [0.0; 3], ..self.clone() }
     }
 
-    /// The same scene without the terms of inner friction, which no integration has.
+    /// The same scene without the terms of internal friction, which no integration has.
     pub(crate) fn without_dissipation(&self) -> Self {
         let mut scene = self.clone();
         scene.torques.retain(|torque| !matches!(torque, Torque::Dissipation(_)));

@@ -40,7 +40,7 @@ pub enum Torque {
     Rotor([f64; 3]),
     /// Three polynomials times powers of distances.
     Polynomial(Arc<PolynomialTorque>),
-    /// Inner friction, for [`Scene::evolve`](crate::Scene::evolve) and [`Scene::drift`](crate::Scene::drift) alone: no torque that a rigid body has.
+    /// Internal friction, for [`Scene::evolve`](crate::Scene::evolve) and [`Scene::drift`](crate::Scene::drift) alone: no torque that a rigid body has.
     Dissipation(EnergyLoss),
 }
 

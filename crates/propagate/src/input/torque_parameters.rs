@@ -9,7 +9,7 @@ const MOST_COEFFICIENTS: usize = 60;
 
 impl Torque {
     /// The names of its parameters, each with the torque that it multiplies: the components of a constant torque, of the momentum of rotors and of a dipole, the elements of a damping matrix, and of another polynomial its
-    /// factor and, up to 60, its coefficients. Inner friction has none.
+    /// factor and, up to 60, its coefficients. Internal friction has none.
     ///
     /// # Errors
     /// Those of [`Torque::polynomial`]: none, for a torque that was made by it.

@@ -294,7 +294,7 @@ class Torque:
         """(K(ω × B)) × B of eddy currents in a conducting body, with the magnetic tensor K (N. Ortiz Gómez and S. J. I. Walker 2015): it brakes the rotation across the field."""
     @classmethod
     def dissipation(cls, loss: Dissipation | Callable[[float], float]) -> Torque:
-        """Inner friction, which takes energy at constant angular momentum: a term of `Scene.evolve` and `Scene.drift` alone. A scene with it is not solved."""
+        """Internal friction, which takes energy at constant angular momentum: a term of `Scene.evolve` and `Scene.drift` alone. A scene with it is not solved."""
     @classmethod
     def polynomial(
         cls,
@@ -517,7 +517,7 @@ class Motion:
     def angular_velocity(self, times: ArrayLike, out: _Array | None = None) -> _Array:
         """Evaluates angular velocities in body components, in rad per unit of time."""
     def angular_momentum(self, times: ArrayLike) -> _Array:
-        """Evaluates the angular momentum in inertial components, in the unit of moment × rate. It is constant unless the scene has an orbit."""
+        """Evaluates the angular momentum in inertial components, in the unit of moment × rate. It is constant unless the scene has an orbit or torques."""
     def andoyer(self, times: ArrayLike) -> _Array:
         """Evaluates the Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1)."""
     def rotation(self, times: ArrayLike) -> Rotation:
