@@ -167,7 +167,8 @@ def by_work(bench, precision, stress):
 
 def summary(bench, precision, stress):
     """The table of the README: the time of each kind of work, and the error over all random scenes."""
-    said = "One core of a shared machine with AVX-512 (`make figures`). More: [accuracy](docs/accuracy.md), [speed](docs/speed.md)."
+    first = provenance()["bench.csv"]
+    said = f"One core of a shared machine with AVX-512, {first['date']}, commit {first['commit']} (`make figures`). More: [accuracy](docs/accuracy.md), [speed](docs/speed.md)."
     return f"{by_work(bench, precision, stress)}\n\n{said}"
 
 

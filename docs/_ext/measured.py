@@ -4,6 +4,7 @@ A block marked `measured` contains the name of one of the tables below. Date, co
 """
 
 import csv
+import hashlib
 import itertools
 import re
 import statistics
@@ -47,13 +48,17 @@ def origins(files: Iterable[str]) -> list[str]:
     """Date and commit of files of figures: a paragraph in Markdown."""
     with (DATA / "provenance.csv").open(encoding="utf-8", newline="") as file:
         rows = {row["file"]: row for row in csv.DictReader(file)}
-    unknown = [name for name in files if name not in rows]
-    if unknown:
-        raise LookupError(f"measured: {', '.join(unknown)} has no row in provenance.csv: run `make figures`")
-    runs: dict[tuple[str, str], list[str]] = {}
+    runs: dict[tuple[str, ...], list[str]] = {}
     for name in files:
-        runs.setdefault((rows[name]["date"], rows[name]["commit"]), []).append(f"[{name}](/data/{name})")
-    return [f"Measured on {date} at commit {commit}{since(commit)}: {', '.join(names)}." for (date, commit), names in runs.items()]
+        if name not in rows:
+            raise LookupError(f"measured: {name} has no row in provenance.csv: run `make figures`")
+        if rows[name]["digest"] != hashlib.sha256((DATA / name).read_bytes()).hexdigest()[:16]:
+            raise LookupError(f"measured: {name} is not the file that was measured on {rows[name]['date']}")
+        runs.setdefault(tuple(rows[name][column] for column in ("date", "commit", "processor", "cores")), []).append(f"[{name}](/data/{name})")
+    return [
+        f"Measured on {date} at commit {commit}{since(commit)}, {processor}, {cores} cores: {', '.join(names)}."
+        for (date, commit, processor, cores), names in runs.items()
+    ]
 
 
 def plain(cell: str) -> str:
@@ -266,9 +271,9 @@ def libration_rivals() -> list[str]:
     for (case, orbits), engines in cases.items():
         cells = [case, f"{int(orbits):,}"]
         for name, columns in (("next", ("error", "seconds")), ("integrated", ("error", "seconds")), ("heyoka", ("error", "seconds"))):
-            cells += [engines[name][column] if name in engines else "–" for column in columns]
+            cells += [engines[name][column] if engines[name][column] == "–" else f"{float(engines[name][column]):.2g}" for column in columns]
         rows.append(cells)
-    header = ["scene", "orbits", "libration: error [rad]", "time [s]", "integration: error", "time [s]", "heyoka: error", "time [s]"]
+    header = ["scene", "orbits", *(f"{engine}: {column}" for engine in ("libration", "integration", "heyoka") for column in ("error [rad]", "time [s]"))]
     return markdown(header, rows)
 
 
@@ -363,6 +368,8 @@ def verdicts() -> list[str]:
     for part in ("periods", "pole", "mode"):
         for name, model in itertools.product(("short-axis", "long-axis", "principal-axis", "underdetermined"), ("ellipsoid", "facets")):
             of_class = [row for row in rows if (row["class"], row["model"]) == (name, model)]
+            if not of_class:
+                continue
             said = [(row[f"verdict {part}"], row[f"right {part}"] == "1") for row in of_class]
             counts = [
                 said.count(("secure", True)),
@@ -370,7 +377,7 @@ def verdicts() -> list[str]:
                 *(sum(word == other for word, _ in said) for other in ("ambiguous", "not determined")),
             ]
             lines.append([part, name, model, str(len(of_class)), *map(str, counts), str(sum(right for _, right in said))])
-    return markdown(["", "class", "model", "sets", "secure and right", "secure and wrong", "ambiguous", "not determined", "best state right"], lines)
+    return markdown(["quantity", "class", "model", "sets", "secure, right", "secure, wrong", "ambiguous", "not determined", "best state right"], lines)
 
 
 def nature_moon() -> list[str]:
@@ -508,8 +515,8 @@ class Measured(SphinxDirective):
         name = " ".join(self.content).strip()
         if name not in TABLES:
             raise self.error(f"measured: there is no table {name!r}, only {', '.join(TABLES)}")
-        if name == "verified":
-            self.env.note_reread()
+        # The tests, and the number of commits since, are no file that the page depends on.
+        self.env.note_reread()
         for file in DATA.glob("*.csv"):
             self.env.note_dependency(str(file))
         FILES.clear()

@@ -66,7 +66,7 @@ tolerance = 1e-6
 named = "Moon"
 
 [state]
-attitude = [0.0, 0.0, 0.0, 1.0]
+attitude = [0.0, 0.0, 1.0, 0.0]
 angular_velocity = [0.0, 0.0, 0.22995281676961699]
 
 [orbit]
@@ -163,6 +163,12 @@ function describe() {
 // Whether the motion is held by its orbit: then it is seen from there.
 const held = () => solved.orbits() > 0 && ["integrated", "libration"].includes(solved.method());
 const elementsOf = () => /^\s*elements_of\s*=\s*"disturbing"/m.test(scene) ? "disturbing" : "rotating";
+
+// A number of six digits, with an exponent where that is shorter than its field.
+const short = value => {
+  const text = String(Number(value.toPrecision(6)));
+  return text.length > 9 ? value.toExponential(3) : text;
+};
 
 // The angles between the body axes and the angular momentum, or the primary.
 function sample() {
@@ -418,7 +424,7 @@ function settle(moved = null) {
       range.max = String(1.5 * rate);
     }
     if (range !== moved) range.value = String(value);
-    if (number !== moved) number.value = String(Number(value.toPrecision(6)));
+    if (number !== moved) number.value = short(value);
   });
 }
 

@@ -1,6 +1,7 @@
 """Checks of the files of the built site: every link has a target, and no page loads files from elsewhere. They need no browser; `make docs` builds the site."""
 
 import re
+import shutil
 from urllib.parse import unquote
 
 import pytest
@@ -52,7 +53,7 @@ def test_numbers_and_short_cells_stay_in_one_piece():
 def test_llms_txt_lists_every_page_with_its_headings():
     text = (SITE / "llms.txt").read_text(encoding="utf-8")
     lines = dict(re.findall(r"^- \[[^\]]+\]\(([^)]+)\)(?:: (.*))?$", text, re.MULTILINE))
-    assert text.startswith("# andoyer\n\n> The attitude of rigid bodies") and "\n## Use\n" in text
+    assert text.startswith("# andoyer\n\n> How a rigid body turns") and "\n## Use\n" in text
     others = {"index.html", "search.html", "genindex.html", "py-modindex.html"}
     pages = {str(page.relative_to(SITE)) for page in PAGES if page.parent.name not in ("pages", "playground")}
     assert pages - others == set(lines)
@@ -98,6 +99,11 @@ def test_how_long_ago_a_commit_was(measured):
     assert measured.since("0000000") == ""
 
 
-def test_a_file_of_figures_without_an_origin_is_named(measured):
+def test_a_file_of_figures_without_an_origin_or_with_another_one_is_named(measured, monkeypatch, tmp_path):
     with pytest.raises(LookupError, match="none.csv has no row in provenance.csv"):
         measured.origins(["bench.csv", "none.csv"])
+    data = shutil.copytree(measured.DATA, tmp_path / "data")
+    (data / "bench.csv").write_text("task\n", encoding="utf-8")
+    monkeypatch.setattr(measured, "DATA", data)
+    with pytest.raises(LookupError, match="bench.csv is not the file that was measured on"):
+        measured.origins(["bench.csv"])
