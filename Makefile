@@ -105,6 +105,7 @@ verdicts: $(VENV)/installed  ## how often verdicts on simulated light curves are
 	for model in ellipsoid facets; do \
 	  $(BIN)/python benches/verdicts.py --seed 300 --count 30 --starts 1000 --model $$model --out docs/data/verdicts.csv || exit 1; \
 	done
+	$(BIN)/python benches/verdicts.py --out docs/data/verdicts.csv --picture docs/verdicts.png
 
 libration-reach: $(VENV)/installed  ## the share of random locked scenes that are served: docs/data/libration-reach.csv and its picture; some minutes
 	cargo build --release --quiet --package andoyer-tests --features programs --bin libration

@@ -2,6 +2,7 @@
 
     python benches/verdicts.py --count 40 --out verdicts.csv       fits data sets, one row each, then prints the tables; seeds that are in the file already are left out
     python benches/verdicts.py --model facets …                    the same with `shape="facets"`; rows of both models may stand in one file
+    python benches/verdicts.py --picture docs/verdicts.png         draws the answers of the file --out
     python benches/verdicts.py --test                              compares the simulation with the library, 10 data sets
 
 A data set has a body of facets (ellipsoid, egg, box, smoothed box), whose moments are sums over tetrahedra; a motion from Euler's equations by DOP853 of SciPy; one of three laws of scattering; directions
@@ -411,23 +412,53 @@ def answer(line, part):
     return f"secure {'right' if line[f'right {part}'] == '1' else 'wrong'}" if said == "secure" else said
 
 
+BINS = {
+    "class": lambda line: line["class"],
+    "nights": lambda line: next(f"{low:2d} to {high:2d}" for low, high in ((3, 4), (5, 7), (8, 10)) if int(line["nights"]) <= high),
+    "signal to noise": lambda line: next(
+        name for high, name in ((3, " 0 to  3"), (10, " 3 to 10"), (np.inf, "above 10")) if float(line["signal to noise"]) < high
+    ),
+}
+
+
 def tables(lines):
     """Prints how often each answer was given, by class, number of nights and signal to noise, and without a verdict how often the best state is right."""
     lines = [line for line in lines if line["error"] == NONE]
-    bins = {
-        "class": lambda line: line["class"],
-        "nights": lambda line: next(f"{low:2d} to {high:2d}" for low, high in ((3, 4), (5, 7), (8, 10)) if int(line["nights"]) <= high),
-        "signal to noise": lambda line: next(
-            name for high, name in ((3, " 0 to  3"), (10, " 3 to 10"), (np.inf, "above 10")) if float(line["signal to noise"]) < high
-        ),
-    }
     for part in PARTS:
-        for title, group in bins.items():
+        for title, group in BINS.items():
             print(f"\n{part}, by {title}:  " + "  ".join(ANSWERS) + "  | best state right")
             for name in sorted({group(line) for line in lines}):
                 of_group = [line for line in lines if group(line) == name]
                 counts = "  ".join(f"{sum(answer(line, part) == said for line in of_group):{len(said)}d}" for said in ANSWERS)
                 print(f"  {name:16s} {counts}  | {sum(line[f'right {part}'] == '1' for line in of_group)} of {len(of_group)}")
+
+
+def picture(lines, path):
+    """Draw the answers on the periods as shares of the sets of a group, a column a way to group them, a bar a group and model."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    colors = ("#0072B2", "#D55E00", "#BBBBBB", "#EEEEEE")
+    with plt.rc_context({"font.size": 10, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False}):
+        figure, grid = plt.subplots(1, 3, figsize=(11, 3.6), layout="constrained")
+        for axes, (title, group) in zip(grid, BINS.items(), strict=True):
+            names = [(name, model) for name in sorted({group(line) for line in lines}) for model in MODELS]
+            for place, (name, model) in enumerate(names):
+                here = [answer(line, "periods") for line in lines if (group(line), line["model"]) == (name, model)]
+                left = 0.0
+                for said, color in zip(ANSWERS, colors, strict=True):
+                    share = here.count(said) / len(here)
+                    axes.barh(-place - 0.4 * (place // 2), share, left=left, color=color, label=said if place == 0 else None)
+                    left += share
+                axes.annotate(str(len(here)), (1.02, -place - 0.4 * (place // 2)), va="center")
+            axes.set(title=f"by {title}", xlabel="share of the sets", xlim=(0, 1.1))
+            axes.set_yticks([-place - 0.4 * (place // 2) for place in range(len(names))], [f"{name}, {model}" for name, model in names])
+        figure.suptitle("The verdict on the periods")
+        figure.legend(*grid[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+        figure.savefig(path, dpi=110, metadata={"Software": None})
+        plt.close(figure)
 
 
 COLUMNS = [
@@ -492,9 +523,13 @@ if __name__ == "__main__":
     parser.add_argument("--out", default="verdicts.csv")
     parser.add_argument("--starts", type=int, default=STARTS)
     parser.add_argument("--model", choices=MODELS, default="ellipsoid")
+    parser.add_argument("--picture")
     parser.add_argument("--test", action="store_true")
     arguments = parser.parse_args()
     if arguments.test:
         test(10)
+    elif arguments.picture:
+        with open(arguments.out, encoding="utf-8", newline="") as data:
+            picture([line for line in csv.DictReader(data) if line["error"] == NONE], arguments.picture)
     else:
         main(arguments.count, arguments.seed, arguments.out, arguments.starts, arguments.model)

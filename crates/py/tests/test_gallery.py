@@ -35,6 +35,7 @@ def test_there_are_the_twenty_of_them():
         "satellite_years",
         "yorp_cycles",
         "cubesats",
+        "saturn_moons",
     ]
 
 
