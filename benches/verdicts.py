@@ -434,7 +434,7 @@ def tables(lines):
 
 
 def picture(lines, path):
-    """Draw the answers on the periods as shares of the sets of a group, a column a way to group them, a bar a group and model."""
+    """Draw how often each answer on the periods was given: a panel for each of BINS, in it a bar for each group and model."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -445,16 +445,17 @@ def picture(lines, path):
         figure, grid = plt.subplots(1, 3, figsize=(11, 3.6), layout="constrained")
         for axes, (title, group) in zip(grid, BINS.items(), strict=True):
             names = [(name, model) for name in sorted({group(line) for line in lines}) for model in MODELS]
-            for place, (name, model) in enumerate(names):
+            heights = [-place - 0.4 * (place // len(MODELS)) for place in range(len(names))]
+            for height, (name, model) in zip(heights, names, strict=True):
                 here = [answer(line, "periods") for line in lines if (group(line), line["model"]) == (name, model)]
                 left = 0.0
                 for said, color in zip(ANSWERS, colors, strict=True):
                     share = here.count(said) / len(here)
-                    axes.barh(-place - 0.4 * (place // 2), share, left=left, color=color, label=said if place == 0 else None)
+                    axes.barh(height, share, left=left, color=color, label=said if height == 0 else None)
                     left += share
-                axes.annotate(str(len(here)), (1.02, -place - 0.4 * (place // 2)), va="center")
+                axes.annotate(str(len(here)), (1.02, height), va="center")
             axes.set(title=f"by {title}", xlabel="share of the sets", xlim=(0, 1.1))
-            axes.set_yticks([-place - 0.4 * (place // 2) for place in range(len(names))], [f"{name}, {model}" for name, model in names])
+            axes.set_yticks(heights, [f"{name}, {model}" for name, model in names])
         figure.suptitle("The verdict on the periods")
         figure.legend(*grid[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
         figure.savefig(path, dpi=110, metadata={"Software": None})

@@ -8,7 +8,7 @@ import matplotlib
 import andoyer
 
 DOCS = Path(__file__).parent
-sys.path.insert(0, str(DOCS / "_ext"))
+sys.path[:0] = [str(DOCS / "_ext"), str(DOCS.parent / "benches")]
 matplotlib.use("Agg")
 
 project = "andoyer"

@@ -4,7 +4,6 @@ A block marked `measured` contains the name of one of the tables below. Date, co
 """
 
 import csv
-import hashlib
 import itertools
 import re
 import statistics
@@ -13,6 +12,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+import figures
 from docutils import nodes
 from docutils.statemachine import StringList
 from sphinx.application import Sphinx
@@ -46,13 +46,12 @@ def since(commit: str) -> str:
 
 def origins(files: Iterable[str]) -> list[str]:
     """Date and commit of files of figures: a paragraph in Markdown."""
-    with (DATA / "provenance.csv").open(encoding="utf-8", newline="") as file:
-        rows = {row["file"]: row for row in csv.DictReader(file)}
+    rows = figures.provenance(DATA)
     runs: dict[tuple[str, ...], list[str]] = {}
     for name in files:
         if name not in rows:
             raise LookupError(f"measured: {name} has no row in provenance.csv: run `make figures`")
-        if rows[name]["digest"] != hashlib.sha256((DATA / name).read_bytes()).hexdigest()[:16]:
+        if rows[name]["digest"] != figures.digest(DATA / name):
             raise LookupError(f"measured: {name} is not the file that was measured on {rows[name]['date']}")
         runs.setdefault(tuple(rows[name][column] for column in ("date", "commit", "processor", "cores")), []).append(f"[{name}](/data/{name})")
     return [

@@ -61,7 +61,7 @@ axes.legend(frameon=False)
 plt.show()
 
 # %%
-# **Hyperion** is too elongated for its eccentricity. In the plane of the orbit the synchronous state is stable, out of it a small angle grows.
+# **Hyperion** cannot be synchronous: in the plane of its orbit that state is stable, but a small angle out of the plane grows (Wisdom, Peale and Mignard 1984, Icarus 58, 137).
 
 hyperion, orbit = andoyer.Body.named("hyperion"), andoyer.Orbit(TURN / 21.28, 0.1230)
 try:
@@ -79,7 +79,7 @@ except andoyer.TheoryError as error:
     print(error)
 
 # %%
-# Forty bodies whose attitudes differ by some 0.01° are apart by half a turn long before.
+# Forty bodies whose attitudes differ by some 0.01° at the epoch point anywhere after 250 d.
 
 generator = np.random.default_rng(1)
 attitudes = np.array(attitude) + np.radians(0.01) / 2 * generator.standard_normal((40, 4))

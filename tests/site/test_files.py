@@ -88,10 +88,18 @@ def test_each_table_of_figures_says_date_and_commit(page):
 
 @pytest.fixture
 def measured(monkeypatch):
+    monkeypatch.syspath_prepend(SITE.parents[1] / "benches")
     monkeypatch.syspath_prepend(SITE.parents[1] / "docs" / "_ext")
     import measured
 
     return measured
+
+
+def test_a_number_is_kept_in_one_piece_and_a_commit_is_no_number(monkeypatch):
+    monkeypatch.syspath_prepend(SITE.parents[1] / "docs" / "_ext")
+    import unbroken
+
+    assert unbroken.NUMBER.split("below 1.05e-3 at 17f2e946") == ["below ", "1.05e-3", " at 17f2e946"]
 
 
 def test_how_long_ago_a_commit_was(measured):
